@@ -1,0 +1,45 @@
+# How every room of floe is compiled, in one place.
+include_guard()
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+
+add_library(floe_options INTERFACE)
+target_compile_options(floe_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+                                              $<$<BOOL:${FLOE_WERROR}>:-Werror>)
+if(FLOE_SANITIZE)
+  target_compile_options(floe_options INTERFACE -fsanitize=${FLOE_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(floe_options INTERFACE -fsanitize=${FLOE_SANITIZE})
+endif()
+
+# floe_room(NAME SOURCES ... DEPENDS ...): a static library floe::NAME. Headers are included by
+# their path from the project's root, e.g. "geometry/detector.h".
+function(floe_room name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
+  add_library(floe_${name} STATIC ${ARG_SOURCES})
+  add_library(floe::${name} ALIAS floe_${name})
+  target_include_directories(floe_${name} PUBLIC "${PROJECT_SOURCE_DIR}")
+  target_link_libraries(floe_${name} PUBLIC ${ARG_DEPENDS} PRIVATE floe_options)
+endfunction()
+
+# floe_test(NAME LABEL unit|physics|regression|app SOURCES ... DEPENDS ...): one GoogleTest
+# program, registered as one CTest test with the label and a time limit.
+function(floe_test name)
+  cmake_parse_arguments(ARG "" "LABEL;TIMEOUT" "SOURCES;DEPENDS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}")
+  target_link_libraries(${name} PRIVATE ${ARG_DEPENDS} floe_options GTest::gtest GTest::gtest_main)
+  # Tests that compare with files outside the project look for them here, and are skipped without.
+  target_compile_definitions(${name} PRIVATE FLOE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+                                             FLOE_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared")
+  add_test(NAME ${name} COMMAND ${name})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 300)
+  endif()
+  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABEL}" TIMEOUT ${ARG_TIMEOUT})
+endfunction()

@@ -1,0 +1,64 @@
+// What flows through floe: modules are named, photons are detected, events collect them.
+#pragma once
+
+#include <compare>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "data/base/vec3.h"
+
+namespace floe {
+
+// An optical module's place: string 1-86 (more in other detectors), DOM 1-60 from the top.
+struct ModuleId {
+  int string = 0;
+  int dom = 0;
+  auto operator<=>(const ModuleId&) const = default;
+};
+
+// One detected photon, or one pulse when only time and charge are known.
+struct Hit {
+  static constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+
+  ModuleId module;
+  double time = 0;             // [ns]
+  float charge = 1;            // [photoelectrons]
+  float wavelength = unknown;  // [nm]
+  // Direction in which the photon travels, and direction from the point where it met the module to
+  // the module's centre (their product is positive); unit vectors, or unknown.
+  Vec3f direction = Vec3f::Constant(unknown);
+  Vec3f inward = Vec3f::Constant(unknown);
+
+  bool has_direction() const { return direction.x() == direction.x(); }
+};
+
+// A particle as f2k text describes it: true for a simulation's input, and stored with its output.
+struct Particle {
+  std::string name = "e-";  // e, e-, e+, gamma, delta, brems, epair, hadr, munu, amu, amu+, amu-, ph
+  Vec3 position = Vec3::Zero();
+  double zenith = 0, azimuth = 0;  // where it comes FROM [rad]
+  double length = 0;               // of a muon segment [m]
+  double energy = 0;               // [GeV]; for "ph" the number of photons
+  double time = 0;                 // [ns]
+};
+
+struct Event {
+  std::string id;               // unique within its file
+  std::vector<Hit> hits;
+  std::vector<Particle> truth;  // empty for measured data
+  double repeats = 1;           // the hits are an average over this many repetitions
+};
+
+// Where a file came from: enough to make it again.
+struct Provenance {
+  std::string version;        // of floe
+  std::string command;        // the command line
+  std::string configuration;  // every setting, as one JSON object
+  std::string ice_name, ice_hash;
+  std::string detector_name, detector_hash;
+  unsigned long long seed = 0;
+  double oversize = 1;
+};
+
+}  // namespace floe

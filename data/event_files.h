@@ -1,0 +1,56 @@
+// Event files: floe's own HDF5 (docs/formats.md) and the texts that other tools write.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "data/event.h"
+
+namespace floe {
+
+// Writes events one after the other, hits in any number of portions, in constant memory. The file
+// appears under its name only when close() has succeeded.
+class EventFileWriter {
+ public:
+  EventFileWriter(std::filesystem::path path, const Provenance& provenance);
+  ~EventFileWriter();
+  EventFileWriter(const EventFileWriter&) = delete;
+  EventFileWriter& operator=(const EventFileWriter&) = delete;
+
+  void begin_event(const std::string& id, const std::vector<Particle>& truth, double repeats = 1);
+  void append(std::span<const Hit> hits);  // to the event begun last
+  void close();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+struct EventFile {
+  std::vector<Event> events;
+  std::optional<Provenance> provenance;  // only floe's own files know it
+};
+
+// Reads .h5, .hits ("HIT" lines), .dat (charge list), each text also gzipped. A text file holds one
+// event, named after the file; "HIT" lines may be preceded by "EM ..." / "TR ..." lines of f2k, which
+// become its truth. Throws InputError: missing, truncated, malformed, not finite, no hits at all.
+EventFile read_event_file(const std::filesystem::path& path);
+
+// Formats of export; chosen by suffix (also with .gz).
+enum class EventFormat { hits, dat, csv };
+EventFormat event_format_of(const std::filesystem::path& path);  // throws UsageError
+
+// Writes one file of text for all events; more than one event in a format without event names is a
+// UsageError that says what to do. Text is exact to 1e-3 ns / 1e-6 rad.
+void export_events(const std::filesystem::path& path, EventFormat format, std::span<const Event> events);
+
+// f2k text: one "TR gen igen NAME x y z zenith azimuth length energy time" a line (degrees); "EM"
+// lines separate events; other f2k keywords (V, TBEGIN, EE, ...) are passed over. Several TR lines
+// without EM belong to one event. Throws InputError.
+std::vector<Event> read_f2k(const std::filesystem::path& path);
+
+}  // namespace floe

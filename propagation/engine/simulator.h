@@ -1,0 +1,66 @@
+// From a source's photons to detected photons: the one entry point of the propagation.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+
+#include "data/base/progress.h"
+#include "propagation/model.h"
+#include "propagation/sources/source.h"
+
+namespace floe {
+
+// One detected photon; `module` is an index into Detector::modules().
+struct SimulatedHit {
+  std::uint32_t module;
+  float time;        // [ns]
+  float wavelength;  // [nm]
+  Vec3f direction;   // in which the photon travels
+  Vec3f inward;      // from its landing point to the module's centre, nominal size
+};
+Hit to_hit(const SimulatedHit& hit, const Detector& detector);
+
+// Receives hits in the order of the photons, in portions; called from one thread at a time.
+using HitSink = std::function<void(std::span<const SimulatedHit>)>;
+
+struct SimulationOptions {
+  std::uint64_t seed = 1;
+  std::uint64_t stream = 0;  // sources with different streams are independent
+  int threads = 0;           // 0: all cores
+  double scale = 1;          // light of this many repetitions of the source
+  bool fixed_number = false; // propagate the expected number, rounded, instead of a Poisson draw
+};
+
+struct SimulationSummary {
+  std::uint64_t propagated = 0;  // photons walked
+  std::uint64_t hits = 0;
+  double seconds = 0;
+};
+
+// Propagates N x efficiency x max(as.dat) x (largest relative efficiency) / oversize^2 photons and
+// accepts at the module with what is left (physics: arXiv:1309.7010). The same seed gives the same hits
+// for any number of threads. Immutable; run() may be called from several threads.
+class Simulator {
+ public:
+  // Throws UsageError unless 1 <= oversize <= 100.
+  Simulator(const Model& model, double oversize);
+  ~Simulator();
+
+  const Model& model() const { return model_; }
+  double oversize() const { return oversize_; }
+  // Expected number of photons to walk for one repetition of the source.
+  double photons_to_propagate(const Source& source) const;
+
+  SimulationSummary run(const Source& source, const SimulationOptions& options, const HitSink& sink,
+                        const Progress& progress = {}) const;
+
+ private:
+  struct Engine;
+  Model model_;
+  double oversize_;
+  std::unique_ptr<const Engine> engine_;
+};
+
+}  // namespace floe

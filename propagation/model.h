@@ -1,0 +1,44 @@
+// Everything a simulation is made of besides the source: ice, modules, how modules accept light.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geometry/acceptance.h"
+#include "geometry/detector.h"
+#include "propagation/ice/ice_model.h"
+
+namespace floe {
+
+struct Model {
+  std::shared_ptr<const Detector> detector;
+  std::shared_ptr<const IceModel> ice;
+  ModuleAcceptance acceptance;
+};
+
+// How a user names a model on the command line.
+struct ModelRequest {
+  std::string ice = "south-pole";       // a directory, or "south-pole"
+  std::optional<int> ice_version;       // overrides the directory's `version`
+  std::optional<std::string> detector;  // a geo-f2k file, a directory, or "ic86"; default: of the ice
+  std::vector<std::string> without;     // effects to switch off, see switch_off()
+};
+
+// Reads and validates. Built-in ice takes the built-in detector and acceptance unless named otherwise.
+// Throws InputError, UsageError.
+Model load_model(const ModelRequest& request);
+
+// Names that switch_off() takes, in the order in which help lists them: birefringence (its scattering
+// subtraction goes too), birefringence.diffusion, .deflection, .displacement, absorption-anisotropy,
+// scattering-anisotropy, tilt, hole-ice, cable-shadow, bubbles.
+std::vector<std::string> switchable_effects();
+
+// Switches an effect off in the tables. Throws UsageError naming the known effects otherwise.
+// "cable-shadow" belongs to the detector and leaves the ice as it is (see load_model).
+void switch_off(IceTables& tables, std::string_view effect);
+
+}  // namespace floe

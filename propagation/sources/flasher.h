@@ -1,0 +1,62 @@
+// LED light from a module's flasher board, and light of the same kind from any point.
+#pragma once
+
+#include <optional>
+
+#include "geometry/acceptance.h"
+#include "geometry/detector.h"
+#include "propagation/sources/source.h"
+
+namespace floe {
+
+// How wide a flasher's spectral line is simulated.
+// The LED's line is a smooth step of +-10 nm about the nominal wavelength.
+WavelengthSpectrum led_line(double nominal_wavelength);
+// The middle of the 405 nm line, which came out as 399-409 nm, is what the reference simulations hold;
+// it carries this share of the photons.
+WavelengthSpectrum reference_led_line();
+inline constexpr double reference_led_share = 0.680;
+
+struct FlasherSettings {
+  double photons = 0;                    // N, acceptance-weighted, before the detector's efficiencies
+  double beam_width = 9.7 * degree;      // sigma of the beam; 0: a pencil
+  double elevation = -0.2 * degree;      // above the horizontal
+  std::optional<double> azimuth;         // of the beam; none: symmetric about the vertical
+  bool isotropic = false;                // emits into all directions alike
+  double time = 0;                       // [ns]
+};
+
+// Photons start on the surface of the emitting module, module_radius from its centre in the photon's
+// direction, with the time that takes in vacuum. The beam is von Mises-Fisher of concentration
+// 1/beam_width^2 about the LED's direction.
+class FlasherSource : public Source {
+ public:
+  FlasherSource(const Detector& detector, ModuleId module, const FlasherSettings& settings,
+                WavelengthSpectrum spectrum);
+  double photons() const override { return settings_.photons; }
+  EmittedPhoton emit(RandomStream& random) const override;
+  std::optional<std::size_t> emitting_module() const override { return module_; }
+
+ private:
+  FlasherSettings settings_;
+  WavelengthSpectrum spectrum_;
+  std::size_t module_;
+  Vec3 centre_;
+};
+
+// All photons start at one place and time, into all directions alike, or along `direction`.
+class PointSource : public Source {
+ public:
+  PointSource(const Vec3& position, double time, double photons, WavelengthSpectrum spectrum,
+              std::optional<Vec3> direction = {});
+  double photons() const override { return photons_; }
+  EmittedPhoton emit(RandomStream& random) const override;
+
+ private:
+  Vec3 position_;
+  double time_, photons_;
+  WavelengthSpectrum spectrum_;
+  std::optional<Vec3> direction_;
+};
+
+}  // namespace floe
