@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,9 @@ struct TextLine {
 // Throws InputError when the file is missing, unreadable, truncated (gzip) or larger than 4 GiB.
 std::vector<TextLine> read_text_lines(const std::filesystem::path& file);
 
+// The same lines one after the other, for tables too long to keep; the line lives until `use` returns.
+void for_each_text_line(const std::filesystem::path& file, const std::function<void(const TextLine&)>& use);
+
 // The whole of a file as it is, gunzipped when it is gzipped. Errors as above.
 std::string read_whole_file(const std::filesystem::path& file);
 
@@ -34,5 +38,8 @@ void expect_fields(const TextLine& line, std::size_t least, std::size_t most, st
 
 // Throws InputError unless low <= value <= high; `what` as in parse_number.
 void expect_range(const TextLine& line, double value, double low, double high, std::string_view what);
+
+// Text from a file as error messages show it: in quotes, at most 60 characters, unprintable ones escaped.
+std::string in_quotes(std::string_view text);
 
 }  // namespace floe

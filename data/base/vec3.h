@@ -20,7 +20,9 @@ inline Vec3 unit_vector(double theta, double phi) {
 }
 
 // Direction in which a particle travels that comes FROM (zenith, azimuth) [rad].
-inline Vec3 travel_direction(double zenith, double azimuth) { return -unit_vector(zenith, azimuth); }
+inline Vec3 travel_direction(double zenith, double azimuth) {
+  return -unit_vector(zenith, azimuth);
+}
 
 // Zenith in [0, pi] and azimuth in [0, 2 pi) [rad] from which a particle that travels along the unit
 // vector `direction` comes; the inverse of travel_direction.
