@@ -39,12 +39,14 @@ AngularAcceptance read_angular_acceptance(const std::filesystem::path& as_dat);
 // against wavelength [nm], both rising.
 class WavelengthSpectrum {
  public:
-  struct Point { double cumulative, wavelength; };
+  struct Point {
+    double cumulative, wavelength;
+  };
   // Throws InputError unless points rise strictly in wavelength, do not fall in cumulative, start at 0
   // and end at 1.
   explicit WavelengthSpectrum(std::vector<Point> points);
 
-  double sample(double u) const;  // wavelength at cumulative u in [0, 1]
+  double sample(double u) const;            // wavelength at cumulative u in [0, 1]
   double density(double wavelength) const;  // [1/nm]
   const std::vector<Point>& points() const { return points_; }
 
@@ -57,7 +59,9 @@ WavelengthSpectrum read_wavelength_spectrum(const std::filesystem::path& wv_dat)
 // between points, constant beyond them.
 class HighQeRatio {
  public:
-  struct Point { double wavelength, ratio; };
+  struct Point {
+    double wavelength, ratio;
+  };
   explicit HighQeRatio(std::vector<Point> points);  // throws InputError
   double operator()(double wavelength) const;
   double maximum() const;

@@ -13,22 +13,25 @@ namespace floe {
 
 struct Module {
   ModuleId id;
-  Vec3 position = Vec3::Zero();        // of the sphere's centre [m]
-  double relative_efficiency = 1;      // > 0; 1 is a nominal module
-  bool high_qe_spectrum = false;       // its acceptance follows HighQeRatio over wavelength
-  bool on = true;                      // switched off modules never see light
-  std::optional<double> cable_azimuth; // of the main cable seen from the module [rad]; none: no cable
-  Vec3 up_axis = Vec3::UnitZ();        // of the module; the photomultiplier looks against it
+  Vec3 position = Vec3::Zero();         // of the sphere's centre [m]
+  double relative_efficiency = 1;       // > 0; 1 is a nominal module
+  bool high_qe_spectrum = false;        // its acceptance follows HighQeRatio over wavelength
+  bool on = true;                       // switched off modules never see light
+  std::optional<double> cable_azimuth;  // of the main cable seen from the module [rad]; none: no cable
+  Vec3 up_axis = Vec3::UnitZ();         // of the module; the photomultiplier looks against it
 };
+
+// "module STRING,DOM", as messages name it.
+std::string module_name(ModuleId id);
 
 // All in-ice modules, in ascending order of their ids; immutable. A module's index is its place in
 // modules().
 class Detector {
  public:
-  // Throws InputError when empty, when an id occurs twice, or when two modules overlap.
+  // Throws InputError when empty, when an id occurs twice, when two modules overlap, or when a module is
+  // unphysical (position not finite, efficiency not positive, up axis not a unit vector).
   // `drill_holes` holds the centres (x, y) of holes known better than by the mean of their modules.
-  Detector(std::string name, std::vector<Module> modules,
-           std::map<int, Eigen::Vector2d> drill_holes = {});
+  Detector(std::string name, std::vector<Module> modules, std::map<int, Eigen::Vector2d> drill_holes = {});
 
   const std::string& name() const { return name_; }
   const std::vector<Module>& modules() const { return modules_; }
@@ -38,11 +41,13 @@ class Detector {
 
   // Centre of each string's drill hole: given, else the mean of its modules.
   const std::map<int, Eigen::Vector2d>& strings() const { return strings_; }
-  double largest_relative_efficiency() const;  // over modules that are on
+  double largest_relative_efficiency() const;  // over modules that are on; 0 when none is
   const std::string& hash() const { return hash_; }
 
   // Horizontal and vertical extent of the modules' centres [m].
-  struct Extent { Vec3 low, high; };
+  struct Extent {
+    Vec3 low, high;
+  };
   Extent extent() const;
 
  private:
