@@ -10,8 +10,8 @@
 namespace floe {
 
 // The layer shift [m] as a function of place [m]; none, 1D along 225 deg, or 2D on an oblique grid
-// (arXiv:2307.13951), which takes precedence. Depth and, in 1D, distance are extrapolated linearly; in 2D a place
-// outside the grid has the value of the nearest place on its border.
+// (arXiv:2307.13951), which takes precedence. Depth and, in 1D, distance are extrapolated linearly; in 2D a
+// place outside the grid has the value of the nearest place on its border.
 class LayerTilt {
  public:
   LayerTilt() = default;  // flat layers
@@ -23,26 +23,48 @@ class LayerTilt {
 
  private:
   enum class Kind { flat, lines, map };
-  struct Knot { float value, slope; };  // at a depth row's lower end, and its change per row upwards
+  struct Knot {  // at a depth row's lower end, and its change per row upwards
+    float value, slope;
+  };
+  struct Row {  // in which a place is, and how many rows above its lower end
+    int index;
+    float height;
+  };
+  // A side of the grid's outline, in index coordinates; `gradient` gives the share of the side at which the
+  // nearest point to a place lies.
+  struct Edge {
+    float i, j, along_i, along_j, gradient_i, gradient_j;
+  };
+
+  void set_knots(const std::vector<double>& depths, const std::vector<std::vector<double>>& shifts);
+  void set_grid(const TiltMap& map);
+  void set_columns(const TiltMap& map);
 
   float lines_shift(float x, float y, float z) const;
   float map_shift(float x, float y, float z) const;
-  Knot knot(int column, int row) const { return knots_[row * columns_ + column]; }
+  void move_to_border(float& i, float& j) const;
+  Row row_at(float z) const;
+  float knot(int column, const Row& row) const {
+    const Knot& at = knots_[row.index * columns_ + column];
+    return at.value + at.slope * row.height;
+  }
 
   Kind kind_ = Kind::flat;
-  int rows_ = 0, columns_ = 0;          // rows: intervals of depth, bottom first
+  int rows_ = 0, columns_ = 0;  // rows: intervals of depth, bottom first
   float z_bottom_ = 0, rows_per_metre_ = 0;
-  std::vector<Knot> knots_;
+  std::vector<Knot> knots_;  // [row * columns + column]
 
   // 1D
   float direction_x_ = 0, direction_y_ = 0, origin_ = 0;
   std::vector<float> distances_;
 
-  // 2D
-  std::array<float, 4> to_grid_{};      // (x, y) -> oblique coordinates along the two axes
-  std::array<float, 2> start_{}, step_{};
+  // 2D; index coordinates (i, j) count steps along the two axes from the first grid point
+  std::array<float, 4> to_index_{};  // matrix (x, y) -> (i, j)
+  std::array<float, 2> index_offset_{};
+  std::array<float, 3> metric_{};  // squared distance in space = m0 di^2 + 2 m1 di dj + m2 dj^2
   std::array<int, 2> count_{}, cut_{};
-  std::vector<int> column_of_;          // [j * count0 + i]; -1 where there is no grid point
+  std::vector<int> column_of_;  // [j * count0 + i]; cut points repeat their kept neighbour
+  std::vector<Edge> border_;
 };
 
 }  // namespace floe

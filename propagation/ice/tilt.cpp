@@ -1,0 +1,208 @@
+#include "propagation/ice/tilt.h"
+
+#include <fmt/format.h>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "data/base/constants.h"
+#include "data/base/error.h"
+#include "propagation/ice/ice_files.h"
+
+namespace floe {
+
+namespace {
+
+constexpr double lines_direction = 225 * degree;  // along which 1D tilt varies
+
+Eigen::Vector2d direction_of(double azimuth) {
+  return {std::cos(azimuth), std::sin(azimuth)};
+}
+
+// Where the string at distance 0 stands along the direction of 1D tilt.
+double lines_origin(const IceTables& tables, const Detector& detector) {
+  const TiltLines& tilt = *tables.tilt_lines;
+  const auto zero = std::find(tilt.distances.begin(), tilt.distances.end(), 0.0) - tilt.distances.begin();
+  const int string = tilt.strings.at(zero);
+  double sum = 0;
+  int modules = 0;
+  for (const Module& module : detector.modules())
+    if (module.id.string == string) {
+      sum += module.position.head<2>().dot(direction_of(lines_direction));
+      ++modules;
+    }
+  if (modules == 0)
+    throw InputError({"ice " + tables.name}, fmt::format("a tilt measured from string {}", string),
+                     fmt::format("a detector with that string (detector {} has none)", detector.name()),
+                     "Name the detector that belongs to the ice, or switch the tilt off");
+  return sum / modules;
+}
+
+using Polygon = std::vector<Eigen::Vector2d>;
+
+// The part of a convex polygon where inside(point) >= 0, for a linear function `inside`.
+template <class Inside>
+Polygon clipped(const Polygon& polygon, Inside inside) {
+  Polygon result;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector2d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const double in_a = inside(a), in_b = inside(b);
+    if (in_a >= 0) result.push_back(a);
+    if ((in_a > 0 && in_b < 0) || (in_a < 0 && in_b > 0))
+      result.push_back(a + (b - a) * in_a / (in_a - in_b));
+  }
+  return result;
+}
+
+// The grid's outline in index coordinates (i, j): a rectangle without its two cut corners. Cuts run
+// along the diagonals of cells, so that the outline's corners are grid points.
+Polygon outline(const TiltMap& map) {
+  const double i = map.first.count - 1, j = map.second.count - 1;
+  const Polygon rectangle{{0, 0}, {i, 0}, {i, j}, {0, j}};
+  const auto first_cut = [&](const Eigen::Vector2d& p) { return map.first.cut - 1 - p.x() + p.y(); };
+  const auto second_cut = [&](const Eigen::Vector2d& p) { return map.second.cut - 1 + p.x() - p.y(); };
+  return clipped(clipped(rectangle, first_cut), second_cut);
+}
+
+}  // namespace
+
+LayerTilt::LayerTilt(const IceTables& tables, const Detector& detector) {
+  if (tables.tilt_map) {
+    kind_ = Kind::map;
+    set_knots(tables.tilt_map->depths, tables.tilt_map->shifts);
+    set_grid(*tables.tilt_map);
+  } else if (tables.tilt_lines) {
+    kind_ = Kind::lines;
+    set_knots(tables.tilt_lines->depths, tables.tilt_lines->shifts);
+    distances_.assign(tables.tilt_lines->distances.begin(), tables.tilt_lines->distances.end());
+    const Eigen::Vector2d direction = direction_of(lines_direction);
+    direction_x_ = static_cast<float>(direction.x());
+    direction_y_ = static_cast<float>(direction.y());
+    origin_ = static_cast<float>(lines_origin(tables, detector));
+  }
+}
+
+void LayerTilt::set_knots(const std::vector<double>& depths, const std::vector<std::vector<double>>& shifts) {
+  rows_ = static_cast<int>(depths.size()) - 1;
+  columns_ = static_cast<int>(shifts.front().size());
+  z_bottom_ = static_cast<float>(origin_depth - depths.back());
+  rows_per_metre_ = static_cast<float>(rows_ / (depths.back() - depths.front()));
+  for (int row = 0; row < rows_; ++row) {
+    const auto &below = shifts[rows_ - row], &above = shifts[rows_ - row - 1];
+    for (int column = 0; column < columns_; ++column)
+      knots_.push_back(
+          {static_cast<float>(below[column]), static_cast<float>(above[column] - below[column])});
+  }
+}
+
+void LayerTilt::set_grid(const TiltMap& map) {
+  Eigen::Matrix2d axes;  // columns: unit vectors of the two axes
+  axes << direction_of(map.first.direction_deg * degree), direction_of(map.second.direction_deg * degree);
+  if (std::abs(axes.determinant()) < 0.01)
+    throw InputError("the two axes of the tilt map are parallel; their directions must differ");
+  const Eigen::Vector2d start(map.first.start, map.second.start), step(map.first.step, map.second.step);
+  const Eigen::Matrix2d to_index = step.cwiseInverse().asDiagonal() * axes.inverse();
+  const Eigen::Vector2d offset = -start.cwiseQuotient(step);
+  to_index_ = {float(to_index(0, 0)), float(to_index(0, 1)), float(to_index(1, 0)), float(to_index(1, 1))};
+  index_offset_ = {float(offset.x()), float(offset.y())};
+  count_ = {map.first.count, map.second.count};
+  cut_ = {map.first.cut, map.second.cut};
+  set_columns(map);
+
+  const Eigen::Matrix2d to_space = axes * step.asDiagonal(), metric = to_space.transpose() * to_space;
+  metric_ = {float(metric(0, 0)), float(metric(0, 1)), float(metric(1, 1))};
+  const Polygon corners = outline(map);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Eigen::Vector2d a = corners[i], along = corners[(i + 1) % corners.size()] - a;
+    if (along.norm() < 0.5) continue;  // a corner met twice
+    // The nearest point to p is a + (p - a).e / e^2 along, for p in index coordinates but dot products in
+    // space.
+    const Eigen::Vector2d gradient = metric * along / along.dot(metric * along);
+    border_.push_back({float(a.x()), float(a.y()), float(along.x()), float(along.y()), float(gradient.x()),
+                       float(gradient.y())});
+  }
+}
+
+void LayerTilt::set_columns(const TiltMap& map) {
+  column_of_.assign(static_cast<std::size_t>(count_[0]) * count_[1], -1);
+  int column = 0;
+  for (int j = 0; j < count_[1]; ++j)
+    for (int i = 0; i < count_[0]; ++i)
+      if (ice_files::is_kept(map, i, j)) column_of_[j * count_[0] + i] = column++;
+  // A place on the border may, by rounding, seem to lie in the cell beyond: the cut points next to the
+  // border repeat the value of the kept point reached along the diagonal's normal.
+  for (int j = 0; j < count_[1]; ++j)
+    for (int i = 0; i < count_[0]; ++i) {
+      if (ice_files::is_kept(map, i, j)) continue;
+      const bool first_corner = i >= j + cut_[0];
+      const int ni = first_corner ? i - 1 : i, nj = first_corner ? j : j - 1;
+      column_of_[j * count_[0] + i] = column_of_[nj * count_[0] + ni];
+    }
+}
+
+float LayerTilt::shift(float x, float y, float z) const {
+  switch (kind_) {
+    case Kind::lines:
+      return lines_shift(x, y, z);
+    case Kind::map:
+      return map_shift(x, y, z);
+    case Kind::flat:
+      break;
+  }
+  return 0;
+}
+
+LayerTilt::Row LayerTilt::row_at(float z) const {
+  const float height = (z - z_bottom_) * rows_per_metre_;
+  // Beyond the ends the outermost rows continue. Clamped as a float: the height may exceed an int.
+  const float row = std::clamp(std::floor(height), 0.0f, static_cast<float>(rows_ - 1));
+  return {static_cast<int>(row), height - row};
+}
+
+float LayerTilt::lines_shift(float x, float y, float z) const {
+  const float distance = direction_x_ * x + direction_y_ * y - origin_;
+  int right = 1;
+  while (right + 1 < columns_ && distance >= distances_[right]) ++right;
+  const int left = right - 1;
+  const float share = (distance - distances_[left]) / (distances_[right] - distances_[left]);
+  const Row row = row_at(z);
+  const float at_left = knot(left, row), at_right = knot(right, row);
+  return at_left + share * (at_right - at_left);
+}
+
+void LayerTilt::move_to_border(float& i, float& j) const {
+  float nearest = std::numeric_limits<float>::infinity(), nearest_i = i, nearest_j = j;
+  for (const Edge& edge : border_) {
+    const float share =
+        std::clamp((i - edge.i) * edge.gradient_i + (j - edge.j) * edge.gradient_j, 0.0f, 1.0f);
+    const float ei = edge.i + share * edge.along_i, ej = edge.j + share * edge.along_j;
+    const float di = i - ei, dj = j - ej;
+    const float distance = metric_[0] * di * di + 2 * metric_[1] * di * dj + metric_[2] * dj * dj;
+    if (distance < nearest) nearest = distance, nearest_i = ei, nearest_j = ej;
+  }
+  i = nearest_i, j = nearest_j;
+}
+
+float LayerTilt::map_shift(float x, float y, float z) const {
+  float i = to_index_[0] * x + to_index_[1] * y + index_offset_[0];
+  float j = to_index_[2] * x + to_index_[3] * y + index_offset_[1];
+  const float last_i = static_cast<float>(count_[0] - 1), last_j = static_cast<float>(count_[1] - 1);
+  const bool inside = i >= 0 && j >= 0 && i <= last_i && j <= last_j &&
+                      i - j <= static_cast<float>(cut_[0] - 1) && j - i <= static_cast<float>(cut_[1] - 1);
+  if (!inside) move_to_border(i, j);
+
+  const int cell_i = std::clamp(static_cast<int>(i), 0, count_[0] - 2);
+  const int cell_j = std::clamp(static_cast<int>(j), 0, count_[1] - 2);
+  const float u = i - static_cast<float>(cell_i), v = j - static_cast<float>(cell_j);
+  // The diagonal splits the cell: below it (u > v) the third corner is (i+1, j), above it (i, j+1).
+  const int* corner = &column_of_[cell_j * count_[0] + cell_i];
+  const int third = u > v ? corner[1] : corner[count_[0]];
+  const float larger = std::max(u, v), smaller = std::min(u, v);
+  const Row row = row_at(z);
+  return (1 - larger) * knot(corner[0], row) + (larger - smaller) * knot(third, row) +
+         smaller * knot(corner[count_[0] + 1], row);
+}
+
+}  // namespace floe
