@@ -44,7 +44,7 @@ struct Particle {
 };
 
 struct Event {
-  std::string id;               // unique within its file
+  std::string id;  // unique within its file
   std::vector<Hit> hits;
   std::vector<Particle> truth;  // empty for measured data
   double repeats = 1;           // the hits are an average over this many repetitions

@@ -13,7 +13,9 @@
 namespace floe {
 
 // Writes events one after the other, hits in any number of portions, in constant memory. The file
-// appears under its name only when close() has succeeded.
+// appears under its name only when close() has succeeded. Throws OutputError when the file cannot be
+// written, UsageError for values that no event may hold (data/event_rules.h) and for event names that
+// occur twice. One thread at a time may use event files: HDF5 allows no more.
 class EventFileWriter {
  public:
   EventFileWriter(std::filesystem::path path, const Provenance& provenance);
@@ -23,7 +25,7 @@ class EventFileWriter {
 
   void begin_event(const std::string& id, const std::vector<Particle>& truth, double repeats = 1);
   void append(std::span<const Hit> hits);  // to the event begun last
-  void close();
+  void close();                            // after at least one event
 
  private:
   struct Impl;
@@ -35,9 +37,10 @@ struct EventFile {
   std::optional<Provenance> provenance;  // only floe's own files know it
 };
 
-// Reads .h5, .hits ("HIT" lines), .dat (charge list), each text also gzipped. A text file holds one
-// event, named after the file; "HIT" lines may be preceded by "EM ..." / "TR ..." lines of f2k, which
-// become its truth. Throws InputError: missing, truncated, malformed, not finite, no hits at all.
+// Reads .h5, .hits or .txt ("HIT" lines), .dat (charge list), each text also gzipped. A text file holds
+// one event, named after the file; among the "HIT" lines "EM ..." / "TR ..." lines of f2k may stand,
+// which become its truth. Throws InputError: missing, truncated, malformed, not finite, a text without
+// hits, an HDF5 file without events (a simulated event may well have no hits).
 EventFile read_event_file(const std::filesystem::path& path);
 
 // Formats of export; chosen by suffix (also with .gz).
@@ -45,7 +48,8 @@ enum class EventFormat { hits, dat, csv };
 EventFormat event_format_of(const std::filesystem::path& path);  // throws UsageError
 
 // Writes one file of text for all events; more than one event in a format without event names is a
-// UsageError that says what to do. Text is exact to 1e-3 ns / 1e-6 rad.
+// UsageError that says what to do, and so are hits that the format cannot express (.hits: unknown
+// direction or wavelength, charge other than 1). Text is exact to 1e-3 ns / 1e-6 rad.
 void export_events(const std::filesystem::path& path, EventFormat format, std::span<const Event> events);
 
 // f2k text: one "TR gen igen NAME x y z zenith azimuth length energy time" a line (degrees); "EM"

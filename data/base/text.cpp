@@ -1,6 +1,7 @@
 #include "data/base/text.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -23,15 +24,9 @@ struct CloseGzip {
 using GzipInput = std::unique_ptr<gzFile_s, CloseGzip>;
 
 GzipInput open_input(const std::filesystem::path& file) {
-  const Location where{file.string()};
-  std::error_code ignored;
-  const auto status = std::filesystem::status(file, ignored);
-  if (!std::filesystem::exists(status))
-    throw InputError(where, "no file of this name", "a file", "Check the spelling of the path");
-  if (std::filesystem::is_directory(status)) throw InputError(where, "a directory", "a file");
-  errno = 0;
+  expect_readable_file(file);
   GzipInput input(gzopen(file.c_str(), "rb"));
-  if (!input) throw InputError(where, std::strerror(errno), "a file that can be read");
+  if (!input) throw InputError({file.string()}, std::strerror(errno), "a file that can be read");
   gzbuffer(input.get(), 1 << 17);
   return input;
 }
@@ -85,6 +80,17 @@ std::string_view without_plus(std::string_view text) {
 }
 
 }  // namespace
+
+void expect_readable_file(const std::filesystem::path& file) {
+  const Location where{file.string()};
+  std::error_code ignored;
+  const auto status = std::filesystem::status(file, ignored);
+  if (!std::filesystem::exists(status))
+    throw InputError(where, "no file of this name", "a file", "Check the spelling of the path");
+  if (std::filesystem::is_directory(status)) throw InputError(where, "a directory", "a file");
+  if (::access(file.c_str(), R_OK) != 0)
+    throw InputError(where, std::strerror(errno), "a file that can be read");
+}
 
 std::string read_whole_file(const std::filesystem::path& file) {
   const GzipInput input = open_input(file);

@@ -26,6 +26,9 @@ std::vector<TextLine> read_text_lines(const std::filesystem::path& file);
 // The same lines one after the other, for tables too long to keep; the line lives until `use` returns.
 void for_each_text_line(const std::filesystem::path& file, const std::function<void(const TextLine&)>& use);
 
+// Throws InputError, with the reason, unless `file` exists, is no directory and can be opened.
+void expect_readable_file(const std::filesystem::path& file);
+
 // The whole of a file as it is, gunzipped when it is gzipped. Errors as above.
 std::string read_whole_file(const std::filesystem::path& file);
 

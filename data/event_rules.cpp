@@ -1,0 +1,91 @@
+#include "data/event_rules.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "data/base/text.h"
+
+namespace floe {
+
+namespace {
+
+constexpr std::array<std::string_view, 13> particle_names = {
+    "e", "e-", "e+", "gamma", "delta", "brems", "epair", "hadr", "munu", "amu", "amu+", "amu-", "ph"};
+
+Problem number_problem(std::string_view what, double value, std::string_view expected) {
+  return {fmt::format("{} {}{}", what, value, std::isfinite(value) ? "" : " (not finite)"),
+          std::string(expected)};
+}
+
+std::optional<Problem> direction_problem(std::string_view what, const Vec3f& direction) {
+  constexpr float tolerance = 1e-3f;
+  const bool unknown = std::isnan(direction.x()) && std::isnan(direction.y()) && std::isnan(direction.z());
+  if (unknown || std::abs(direction.norm() - 1) <= tolerance) return {};
+  return Problem{fmt::format("{} ({}, {}, {})", what, direction.x(), direction.y(), direction.z()),
+                 "a unit vector, or NaN in all three components when unknown"};
+}
+
+}  // namespace
+
+std::optional<Problem> problem_of(const Hit& hit) {
+  if (hit.module.string < 1 || hit.module.string > largest_string)
+    return Problem{fmt::format("string {}", hit.module.string), fmt::format("1 to {}", largest_string)};
+  if (hit.module.dom < 1 || hit.module.dom > largest_dom)
+    return Problem{fmt::format("DOM {}", hit.module.dom), fmt::format("1 to {}", largest_dom)};
+  if (!std::isfinite(hit.time)) return number_problem("time", hit.time, "a finite time [ns]");
+  if (!std::isfinite(hit.charge) || hit.charge <= 0)
+    return number_problem("charge", hit.charge, "a finite charge above 0 [photoelectrons]");
+  if (!std::isnan(hit.wavelength) && (!std::isfinite(hit.wavelength) || hit.wavelength <= 0))
+    return number_problem("wavelength", hit.wavelength, "a wavelength above 0 [nm], or NaN when unknown");
+  if (auto problem = direction_problem("photon direction", hit.direction)) return problem;
+  return direction_problem("direction to the module's centre", hit.inward);
+}
+
+std::optional<Problem> problem_of(const Particle& particle) {
+  if (!is_particle_name(particle.name))
+    return Problem{"particle " + in_quotes(particle.name), "one of " + known_particle_names()};
+  if (!particle.position.allFinite())
+    return Problem{fmt::format("position ({}, {}, {})", particle.position.x(), particle.position.y(),
+                               particle.position.z()),
+                   "finite coordinates [m]"};
+  constexpr double rounding = 1 + 1e-12;  // of a conversion from degrees
+  if (!(particle.zenith >= 0 && particle.zenith <= pi * rounding))
+    return number_problem("zenith", particle.zenith / degree, "0 to 180 [deg]");
+  if (!(particle.azimuth >= 0 && particle.azimuth <= 2 * pi * rounding))
+    return number_problem("azimuth", particle.azimuth / degree, "0 to 360 [deg]");
+  if (!std::isfinite(particle.length) || particle.length < 0)
+    return number_problem("length", particle.length, "a finite length, not negative [m]");
+  if (!std::isfinite(particle.energy) || particle.energy <= 0)
+    return number_problem("energy", particle.energy, "a finite energy above 0 [GeV]");
+  if (!std::isfinite(particle.time)) return number_problem("time", particle.time, "a finite time [ns]");
+  return {};
+}
+
+std::optional<Problem> problem_of_event(std::string_view id, double repeats) {
+  const bool controls =
+      std::any_of(id.begin(), id.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+  if (id.empty() || id.size() > longest_event_id || controls)
+    return Problem{"event name " + in_quotes(id),
+                   fmt::format("1 to {} bytes without control characters", longest_event_id)};
+  if (!std::isfinite(repeats) || repeats <= 0)
+    return number_problem("number of repeats", repeats, "a finite number above 0");
+  return {};
+}
+
+std::string event_name_of(const std::filesystem::path& file) {
+  const std::filesystem::path plain = file.extension() == ".gz" ? file.stem() : file.filename();
+  return plain.stem().string().substr(0, longest_event_id);
+}
+
+bool is_particle_name(std::string_view name) {
+  return std::find(particle_names.begin(), particle_names.end(), name) != particle_names.end();
+}
+
+std::string known_particle_names() {
+  return fmt::format("{}", fmt::join(particle_names, ", "));
+}
+
+}  // namespace floe

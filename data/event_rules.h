@@ -1,0 +1,40 @@
+// Which values an event may hold: one place for every reader and writer.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "data/event.h"
+
+namespace floe {
+
+inline constexpr int largest_string = 10000;          // strings are 1..10000
+inline constexpr int largest_dom = 1000;              // modules of a string are 1..1000
+inline constexpr std::size_t longest_event_id = 128;  // [bytes]
+
+// What is wrong with a value, in the two parts that an error message needs.
+struct Problem {
+  std::string found, expected;
+};
+
+// Module within its range, time finite, charge finite and above 0, wavelength above 0 or unknown,
+// directions unit vectors (within 0.001) or unknown. Whether the detector has the module is not asked.
+std::optional<Problem> problem_of(const Hit& hit);
+
+// Name known, everything finite, zenith in 0..pi, azimuth in 0..2 pi, energy above 0, length not
+// below 0.
+std::optional<Problem> problem_of(const Particle& particle);
+
+// Identifier of 1 to 128 bytes without control characters; repeats finite and above 0.
+std::optional<Problem> problem_of_event(std::string_view id, double repeats);
+
+// The name of an event that has none of its own: the file's, without suffix.
+std::string event_name_of(const std::filesystem::path& file);
+
+// Names of f2k particles: e, e-, e+, gamma, delta, brems, epair, hadr, munu, amu, amu+, amu-, ph.
+bool is_particle_name(std::string_view name);
+std::string known_particle_names();  // for messages
+
+}  // namespace floe

@@ -1,0 +1,293 @@
+#include "data/hdf5_reader.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstring>
+#include <fstream>
+#include <unordered_set>
+
+#include "data/base/text.h"
+#include "data/hdf5_schema.h"
+
+namespace floe {
+
+using namespace hdf5;
+
+namespace {
+
+constexpr const char* remake_advice = "The file is truncated or damaged: copy it again or make it again";
+
+[[noreturn]] void throw_problem(const Location& where, const Problem& problem, std::string_view table,
+                                hsize_t row) {
+  throw InputError(where, fmt::format("{} in row {} of '{}'", problem.found, row, table), problem.expected);
+}
+
+Hdf5Handle open_file(const std::filesystem::path& path) {
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "set up the file");
+  checked(H5Pset_file_locking(access, false, true), "set up the file");
+  return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose, "open the file"};
+}
+
+// The root's attributes, each one value.
+class AttributeReader {
+ public:
+  AttributeReader(hid_t file, const Location& where) : file_(file), where_(where) {}
+
+  std::string text(const char* name) const {
+    const Hdf5Handle attribute = open(name, H5T_STRING, "text");
+    const Hdf5Handle type(H5Aget_type(attribute), H5Tclose, "read an attribute");
+    if (checked(H5Tis_variable_str(type), "read an attribute") == 0) return fixed_text(attribute, type);
+    char* value = nullptr;
+    checked(H5Aread(attribute, type, &value), "read an attribute");
+    const std::string result = value ? value : "";
+    H5free_memory(value);
+    return result;
+  }
+  std::uint64_t whole(const char* name) const {
+    std::uint64_t value = 0;
+    checked(H5Aread(open(name, H5T_INTEGER, "a whole number"), H5T_NATIVE_UINT64, &value),
+            "read an attribute");
+    return value;
+  }
+  double number(const char* name) const {
+    double value = 0;
+    checked(H5Aread(open(name, H5T_FLOAT, "a number"), H5T_NATIVE_DOUBLE, &value), "read an attribute");
+    return value;
+  }
+
+ private:
+  Hdf5Handle open(const char* name, H5T_class_t kind, const char* kind_name) const {
+    if (checked(H5Aexists(file_, name), "look for an attribute") == 0)
+      throw InputError(where_, fmt::format("no attribute '{}'", name),
+                       fmt::format("the attributes of an event file ('format' is '{}')", format_name),
+                       "Only HDF5 files that follow docs/formats.md can be read");
+    Hdf5Handle attribute(H5Aopen(file_, name, H5P_DEFAULT), H5Aclose, "open an attribute");
+    const Hdf5Handle type(H5Aget_type(attribute), H5Tclose, "read an attribute");
+    const Hdf5Handle space(H5Aget_space(attribute), H5Sclose, "read an attribute");
+    if (H5Tget_class(type) != kind || H5Sget_simple_extent_npoints(space) != 1)
+      throw InputError(where_, fmt::format("an attribute '{}' of another kind", name),
+                       fmt::format("{}, one value", kind_name));
+    return attribute;
+  }
+  static std::string fixed_text(const Hdf5Handle& attribute, const Hdf5Handle& type) {
+    std::string value(H5Tget_size(type), '\0');
+    checked(H5Aread(attribute, type, value.data()), "read an attribute");
+    return value.substr(0, value.find('\0'));
+  }
+
+  hid_t file_;
+  const Location& where_;
+};
+
+void expect_format(const AttributeReader& attributes, const Location& where) {
+  const std::string format = attributes.text("format");
+  if (format != format_name)
+    throw InputError(where, "the format " + in_quotes(format), fmt::format("'{}'", format_name),
+                     "Only HDF5 files that follow docs/formats.md can be read");
+  const std::uint64_t version = attributes.whole("format_version");
+  if (version != format_version)
+    throw InputError(where, fmt::format("version {} of the format", version),
+                     fmt::format("version {}", format_version),
+                     "Use the release of floe that wrote the file");
+}
+
+Provenance read_provenance(const AttributeReader& attributes, const Location& where) {
+  Provenance provenance;
+  provenance.version = attributes.text("version");
+  provenance.command = attributes.text("command");
+  provenance.configuration = attributes.text("configuration");
+  provenance.ice_name = attributes.text("ice_name");
+  provenance.ice_hash = attributes.text("ice_hash");
+  provenance.detector_name = attributes.text("detector_name");
+  provenance.detector_hash = attributes.text("detector_hash");
+  provenance.seed = attributes.whole("seed");
+  provenance.oversize = attributes.number("oversize");
+  if (!(provenance.oversize > 0 && provenance.oversize < 1e6))
+    throw InputError(where, fmt::format("oversize {}", provenance.oversize), "a finite number above 0");
+  return provenance;
+}
+
+H5T_class_t class_of(ColumnKind kind) {
+  switch (kind) {
+    case ColumnKind::text:
+      return H5T_STRING;
+    case ColumnKind::int32:
+    case ColumnKind::uint64:
+      return H5T_INTEGER;
+    default:
+      return H5T_FLOAT;
+  }
+}
+
+// HDF5 leaves a member that the file lacks as it is, so the columns are compared before reading.
+void expect_columns(const Hdf5Handle& type, std::span<const Column> columns, const char* table,
+                    const Location& where) {
+  if (H5Tget_class(type) != H5T_COMPOUND)
+    throw InputError(where, fmt::format("a data set '{}' of another kind", table), "a table of compounds");
+  for (const Column& column : columns) {
+    const int index = H5Tget_member_index(type, column.name);
+    if (index < 0)
+      throw InputError(where, fmt::format("no column '{}' in '{}'", column.name, table),
+                       "the columns of docs/formats.md");
+    if (H5Tget_member_class(type, static_cast<unsigned>(index)) != class_of(column.kind))
+      throw InputError(where, fmt::format("a column '{}' of another kind in '{}'", column.name, table),
+                       "the columns of docs/formats.md");
+  }
+  const int count = checked(H5Tget_nmembers(type), "read a table's columns");
+  if (count != static_cast<int>(columns.size()))
+    throw InputError(where, fmt::format("{} columns in '{}'", count, table),
+                     fmt::format("the {} columns of docs/formats.md", columns.size()));
+}
+
+template <typename Row>
+class TableReader {
+ public:
+  TableReader(hid_t file, const Location& where) : where_(where) {
+    constexpr const char* name = Table<Row>::name;
+    if (checked(H5Lexists(file, name, H5P_DEFAULT), "look for a table") == 0)
+      throw InputError(where, fmt::format("no table '{}'", name), "the tables events, particles and hits");
+    table_ = Hdf5Handle(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose, "open a table");
+    const Hdf5Handle type(H5Dget_type(table_), H5Tclose, "read a table's columns");
+    expect_columns(type, Table<Row>::columns(), name, where);
+    row_type_ = row_type_in_memory(Table<Row>::columns(), sizeof(Row));
+    const Hdf5Handle space(H5Dget_space(table_), H5Sclose, "read a table's size");
+    if (H5Sget_simple_extent_ndims(space) != 1)
+      throw InputError(where, fmt::format("a table '{}' that is no list of rows", name), "one dimension");
+    checked(H5Sget_simple_extent_dims(space, &size_, nullptr), "read a table's size");
+  }
+
+  hsize_t size() const { return size_; }
+  const Location& where() const { return where_; }
+
+  // Calls use(row, index) for each row, holding one chunk of them in memory.
+  template <typename Use>
+  void for_each(const Use& use) const {
+    std::vector<Row> rows(Table<Row>::rows_per_chunk);
+    for (hsize_t begin = 0; begin < size_; begin += rows.size()) {
+      const hsize_t count = std::min<hsize_t>(rows.size(), size_ - begin);
+      read_rows(begin, count, rows.data());
+      for (hsize_t i = 0; i < count; ++i) use(rows[i], begin + i);
+    }
+  }
+
+ private:
+  void read_rows(hsize_t begin, hsize_t count, Row* rows) const {
+    const Hdf5Handle in_file(H5Dget_space(table_), H5Sclose, "select rows");
+    checked(H5Sselect_hyperslab(in_file, H5S_SELECT_SET, &begin, nullptr, &count, nullptr), "select rows");
+    const Hdf5Handle in_memory(H5Screate_simple(1, &count, nullptr), H5Sclose, "select rows");
+    checked(H5Dread(table_, row_type_, in_memory, in_file, H5P_DEFAULT, rows), "read rows");
+  }
+
+  const Location& where_;
+  Hdf5Handle row_type_, table_;
+  hsize_t size_ = 0;
+};
+
+// Each event owns a range of rows; together the ranges cover a table without gap.
+struct EventRanges {
+  std::vector<Event> events;
+  std::vector<hsize_t> hit_end, particle_end;  // one past the event's last row
+};
+
+void expect_range(const Location& where, const char* table, hsize_t event, hsize_t first, hsize_t count,
+                  hsize_t expected_first, hsize_t rows) {
+  if (first != expected_first)
+    throw InputError(where, fmt::format("event {} whose rows of '{}' begin at {}", event, table, first),
+                     fmt::format("{}, where those of the event before end", expected_first));
+  if (count > rows - first)
+    throw InputError(where, fmt::format("event {} with {} rows of '{}'", event, count, table),
+                     fmt::format("at most the {} that are left", rows - first), remake_advice);
+}
+
+void expect_covered(const Location& where, const char* table, const std::vector<hsize_t>& ends,
+                    hsize_t rows) {
+  if (ends.back() != rows)
+    throw InputError(where, fmt::format("{} rows of '{}' that belong to no event", rows - ends.back(), table),
+                     "every row in one event");
+}
+
+EventRanges read_ranges(const TableReader<EventRow>& table, hsize_t hits, hsize_t particles) {
+  const Location& where = table.where();
+  EventRanges result;
+  std::unordered_set<std::string> ids;
+  hsize_t hit_end = 0, particle_end = 0;
+  table.for_each([&](const EventRow& row, hsize_t index) {
+    Event event;
+    event.id.assign(row.id, strnlen(row.id, sizeof(row.id)));
+    event.repeats = row.repeats;
+    if (const auto problem = problem_of_event(event.id, event.repeats))
+      throw_problem(where, *problem, "events", index);
+    if (!ids.insert(event.id).second)
+      throw InputError(where, fmt::format("a second event named '{}'", event.id), "names that differ");
+    expect_range(where, "hits", index, row.first_hit, row.hit_count, hit_end, hits);
+    expect_range(where, "particles", index, row.first_particle, row.particle_count, particle_end, particles);
+    result.hit_end.push_back(hit_end += row.hit_count);
+    result.particle_end.push_back(particle_end += row.particle_count);
+    result.events.push_back(std::move(event));
+  });
+  if (result.events.empty()) throw InputError(where, "no events", "at least one event");
+  expect_covered(where, "hits", result.hit_end, hits);
+  expect_covered(where, "particles", result.particle_end, particles);
+  return result;
+}
+
+// Gives each row's value, once checked, to the event whose range holds the row.
+template <typename Row, typename Convert, typename Keep>
+void distribute(const TableReader<Row>& table, EventRanges& ranges, const std::vector<hsize_t>& ends,
+                const Convert& convert, const Keep& keep) {
+  std::size_t event = 0;
+  table.for_each([&](const Row& row, hsize_t index) {
+    while (index >= ends[event]) ++event;
+    auto value = convert(row);
+    if (const auto problem = problem_of(value))
+      throw_problem(table.where(), *problem, Table<Row>::name, index);
+    keep(ranges.events[event], std::move(value));
+  });
+}
+
+EventFile read_open_file(hid_t file, const Location& where) {
+  const AttributeReader attributes(file, where);
+  expect_format(attributes, where);
+  EventFile result;
+  result.provenance = read_provenance(attributes, where);
+  const TableReader<EventRow> events(file, where);
+  const TableReader<ParticleRow> particles(file, where);
+  const TableReader<HitRow> hits(file, where);
+  EventRanges ranges = read_ranges(events, hits.size(), particles.size());
+  distribute(particles, ranges, ranges.particle_end, particle_of,
+             [](Event& event, Particle particle) { event.truth.push_back(std::move(particle)); });
+  distribute(hits, ranges, ranges.hit_end, hit_of,
+             [](Event& event, const Hit& hit) { event.hits.push_back(hit); });
+  result.events = std::move(ranges.events);
+  return result;
+}
+
+}  // namespace
+
+bool is_hdf5(const std::filesystem::path& path) {
+  constexpr std::array<char, 8> signature = {'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};
+  expect_readable_file(path);
+  std::array<char, 8> begin{};
+  std::ifstream(path, std::ios::binary).read(begin.data(), begin.size());
+  return begin == signature;
+}
+
+EventFile read_hdf5_events(const std::filesystem::path& path) {
+  const Location where{path.string()};
+  if (!is_hdf5(path)) {
+    const bool empty = std::filesystem::file_size(path) == 0;
+    throw InputError(where, empty ? "an empty file" : "a file that is not HDF5",
+                     "an HDF5 event file as 'floe simulate' and 'floe import' write it");
+  }
+  const Hdf5Silence silence;
+  try {
+    const Hdf5Handle file = open_file(path);
+    return read_open_file(file, where);
+  } catch (const Hdf5Failure& failure) {
+    throw InputError(where, fmt::format("HDF5 that cannot be read ({})", failure.what()), "a whole HDF5 file",
+                     remake_advice);
+  }
+}
+
+}  // namespace floe

@@ -1,0 +1,76 @@
+// The layout of floe's event files, shared by reader and writer; docs/formats.md explains every field.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "data/event.h"
+#include "data/event_rules.h"
+#include "data/hdf5_handle.h"
+
+namespace floe::hdf5 {
+
+inline constexpr const char* format_name = "floe-events";
+inline constexpr std::uint64_t format_version = 1;
+
+// Rows of the three tables as they are in memory.
+struct EventRow {
+  char id[longest_event_id];  // filled up with NUL
+  double repeats;
+  std::uint64_t first_hit, hit_count, first_particle, particle_count;
+};
+struct ParticleRow {
+  char name[16];
+  double x, y, z, zenith_deg, azimuth_deg, length_m, energy_gev, time_ns;
+};
+struct HitRow {
+  std::int32_t string, dom;
+  double time_ns;
+  float charge_pe, wavelength_nm;
+  float direction_x, direction_y, direction_z, inward_x, inward_y, inward_z;
+};
+
+// Text is NUL-padded bytes (UTF-8), numbers little endian.
+enum class ColumnKind { text, int32, uint64, float32, float64 };
+struct Column {
+  const char* name;
+  ColumnKind kind;
+  std::size_t offset, size;  // in the row [bytes]
+};
+
+// A table is a one-dimensional data set of compounds.
+template <typename Row>
+struct Table;  // has: name, rows_per_chunk, columns()
+template <>
+struct Table<EventRow> {
+  static constexpr const char* name = "events";
+  static constexpr hsize_t rows_per_chunk = 256;
+  static std::span<const Column> columns();
+};
+template <>
+struct Table<ParticleRow> {
+  static constexpr const char* name = "particles";
+  static constexpr hsize_t rows_per_chunk = 1024;
+  static std::span<const Column> columns();
+};
+template <>
+struct Table<HitRow> {
+  static constexpr const char* name = "hits";
+  static constexpr hsize_t rows_per_chunk = 16384;
+  static std::span<const Column> columns();
+};
+
+// The compound type of a row in memory, and, packed and little endian, in the file.
+Hdf5Handle row_type_in_memory(std::span<const Column> columns, std::size_t row_size);
+Hdf5Handle row_type_in_file(std::span<const Column> columns);
+
+// The type of a text attribute: UTF-8 of any length.
+Hdf5Handle text_type();
+
+HitRow row_of(const Hit& hit);
+Hit hit_of(const HitRow& row);
+ParticleRow row_of(const Particle& particle);
+Particle particle_of(const ParticleRow& row);
+
+}  // namespace floe::hdf5

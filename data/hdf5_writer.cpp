@@ -1,0 +1,202 @@
+// EventFileWriter: events into floe's HDF5, in constant memory.
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <unordered_set>
+
+#include "data/base/atomic_file.h"
+#include "data/base/error.h"
+#include "data/event_files.h"
+#include "data/hdf5_schema.h"
+
+namespace floe {
+
+using namespace hdf5;
+
+namespace {
+
+constexpr unsigned deflate_level = 4;
+
+Hdf5Handle create_file(const std::filesystem::path& path) {
+  Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "set up the file");
+  // From version 1.10 on all of HDF5's own structures carry checksums, so that damage is noticed.
+  checked(H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110), "set up the file");
+  // The temporary file is ours alone, and locks fail on some network folders.
+  checked(H5Pset_file_locking(access, false, true), "set up the file");
+  return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "create the file"};
+}
+
+void write_attribute(hid_t file, const char* name, const std::string& text) {
+  const Hdf5Handle type = text_type();
+  const Hdf5Handle scalar(H5Screate(H5S_SCALAR), H5Sclose, "describe an attribute");
+  const Hdf5Handle attribute(H5Acreate2(file, name, type, scalar, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                             "create an attribute");
+  const char* value = text.c_str();
+  checked(H5Awrite(attribute, type, &value), "write an attribute");
+}
+
+void write_attribute(hid_t file, const char* name, hid_t type, const void* value) {
+  const Hdf5Handle scalar(H5Screate(H5S_SCALAR), H5Sclose, "describe an attribute");
+  const Hdf5Handle attribute(H5Acreate2(file, name, type, scalar, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                             "create an attribute");
+  checked(H5Awrite(attribute, type, value), "write an attribute");
+}
+
+void write_provenance(hid_t file, const Provenance& provenance) {
+  write_attribute(file, "format", std::string(format_name));
+  write_attribute(file, "format_version", H5T_NATIVE_UINT64, &format_version);
+  write_attribute(file, "version", provenance.version);
+  write_attribute(file, "command", provenance.command);
+  write_attribute(file, "configuration", provenance.configuration);
+  write_attribute(file, "ice_name", provenance.ice_name);
+  write_attribute(file, "ice_hash", provenance.ice_hash);
+  write_attribute(file, "detector_name", provenance.detector_name);
+  write_attribute(file, "detector_hash", provenance.detector_hash);
+  const std::uint64_t seed = provenance.seed;
+  write_attribute(file, "seed", H5T_NATIVE_UINT64, &seed);
+  write_attribute(file, "oversize", H5T_NATIVE_DOUBLE, &provenance.oversize);
+}
+
+// One table of the file, to which rows are appended; a chunk's worth of them is kept in memory.
+template <typename Row>
+class TableWriter {
+ public:
+  explicit TableWriter(hid_t file) : row_type_(row_type_in_memory(Table<Row>::columns(), sizeof(Row))) {
+    const hsize_t none = 0, unlimited = H5S_UNLIMITED, chunk = Table<Row>::rows_per_chunk;
+    const Hdf5Handle space(H5Screate_simple(1, &none, &unlimited), H5Sclose, "describe a table");
+    const Hdf5Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "describe a table");
+    checked(H5Pset_chunk(layout, 1, &chunk), "set a table's chunks");
+    checked(H5Pset_shuffle(layout), "set a table's compression");
+    checked(H5Pset_deflate(layout, deflate_level), "set a table's compression");
+    checked(H5Pset_fletcher32(layout), "set a table's checksum");
+    // The same events give the same bytes, whenever they are written.
+    checked(H5Pset_obj_track_times(layout, false), "describe a table");
+    table_ = Hdf5Handle(H5Dcreate2(file, Table<Row>::name, row_type_in_file(Table<Row>::columns()), space,
+                                   H5P_DEFAULT, layout, H5P_DEFAULT),
+                        H5Dclose, "create a table");
+    rows_.reserve(chunk);
+  }
+
+  void append(const Row& row) {
+    rows_.push_back(row);
+    if (rows_.size() == Table<Row>::rows_per_chunk) write_rows();
+  }
+  hsize_t size() const { return written_ + rows_.size(); }
+  void close() {
+    write_rows();
+    table_.close("close a table");
+  }
+
+ private:
+  void write_rows() {
+    if (rows_.empty()) return;
+    const hsize_t count = rows_.size(), end = written_ + count;
+    checked(H5Dset_extent(table_, &end), "extend a table");
+    const Hdf5Handle in_file(H5Dget_space(table_), H5Sclose, "select rows");
+    checked(H5Sselect_hyperslab(in_file, H5S_SELECT_SET, &written_, nullptr, &count, nullptr), "select rows");
+    const Hdf5Handle in_memory(H5Screate_simple(1, &count, nullptr), H5Sclose, "select rows");
+    checked(H5Dwrite(table_, row_type_, in_memory, in_file, H5P_DEFAULT, rows_.data()), "write rows");
+    written_ = end;
+    rows_.clear();
+  }
+
+  Hdf5Handle row_type_, table_;
+  std::vector<Row> rows_;
+  hsize_t written_ = 0;
+};
+
+void expect_valid(const std::optional<Problem>& problem, const std::string& event) {
+  if (problem)
+    throw UsageError(fmt::format("event '{}' cannot be stored: found {}; expected {}", event, problem->found,
+                                 problem->expected));
+}
+
+}  // namespace
+
+struct EventFileWriter::Impl {
+  explicit Impl(std::filesystem::path name) : path(std::move(name)), target(path) {}
+  ~Impl() {
+    const Hdf5Silence silence;  // what an unfinished file complains about is no news
+    hits.reset(), particles.reset(), events.reset();
+    file = {};
+  }
+
+  // Failures of the library become OutputError.
+  template <typename Work>
+  void guarded(const Work& work) {
+    const Hdf5Silence silence;
+    try {
+      work();
+    } catch (const Hdf5Failure& failure) {
+      throw OutputError(
+          fmt::format("{}: cannot be written: {}. Is the disk full?", path.string(), failure.what()));
+    }
+  }
+
+  void create(const Provenance& provenance) {
+    file = create_file(target.temporary());
+    write_provenance(file, provenance);
+    events.emplace(file), particles.emplace(file), hits.emplace(file);
+  }
+
+  void finish_event() {
+    if (!current) return;
+    current->hit_count = hits->size() - current->first_hit;
+    events->append(*current);
+    current.reset();
+  }
+
+  std::filesystem::path path;
+  AtomicFile target;
+  Hdf5Handle file;
+  std::optional<TableWriter<EventRow>> events;
+  std::optional<TableWriter<ParticleRow>> particles;
+  std::optional<TableWriter<HitRow>> hits;
+  std::optional<EventRow> current;  // the event begun last
+  std::string current_id;
+  std::unordered_set<std::string> ids;
+};
+
+EventFileWriter::EventFileWriter(std::filesystem::path path, const Provenance& provenance)
+    : impl_(std::make_unique<Impl>(std::move(path))) {
+  impl_->guarded([&] { impl_->create(provenance); });
+}
+
+EventFileWriter::~EventFileWriter() = default;
+
+void EventFileWriter::begin_event(const std::string& id, const std::vector<Particle>& truth, double repeats) {
+  if (!impl_->file.open()) throw std::logic_error("EventFileWriter::begin_event after close");
+  expect_valid(problem_of_event(id, repeats), id);
+  for (const Particle& particle : truth) expect_valid(problem_of(particle), id);
+  if (!impl_->ids.insert(id).second)
+    throw UsageError(fmt::format("{}: two events are named '{}'; the names in a file must differ",
+                                 impl_->path.string(), id));
+  impl_->guarded([&] {
+    impl_->finish_event();
+    EventRow row{{}, repeats, impl_->hits->size(), 0, impl_->particles->size(), truth.size()};
+    id.copy(row.id, sizeof(row.id));
+    for (const Particle& particle : truth) impl_->particles->append(row_of(particle));
+    impl_->current = row;
+    impl_->current_id = id;
+  });
+}
+
+void EventFileWriter::append(std::span<const Hit> hits) {
+  if (!impl_->current) throw std::logic_error("EventFileWriter::append without begin_event");
+  for (const Hit& hit : hits) expect_valid(problem_of(hit), impl_->current_id);
+  impl_->guarded([&] {
+    for (const Hit& hit : hits) impl_->hits->append(row_of(hit));
+  });
+}
+
+void EventFileWriter::close() {
+  if (impl_->ids.empty()) throw std::logic_error("EventFileWriter::close without an event");
+  impl_->guarded([&] {
+    impl_->finish_event();
+    impl_->hits->close(), impl_->particles->close(), impl_->events->close();
+    impl_->file.close("close the file");
+  });
+  impl_->target.commit();
+}
+
+}  // namespace floe
