@@ -1,0 +1,106 @@
+#include "apps/command_line.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <cstring>
+#include <numeric>
+
+#include "data/base/error.h"
+
+namespace floe {
+
+namespace {
+
+std::string quoted(const std::string& word) {
+  const auto harmless = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || std::strchr("-_./,=:+@%", c);
+  };
+  if (!word.empty() && std::all_of(word.begin(), word.end(), harmless)) return word;
+  std::string result = "'";
+  for (const char c : word) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result + "'";
+}
+
+// Levenshtein's distance: insertions, deletions and replacements of single letters.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+std::string unknown_word(const CLI::App& app, bool is_command, const std::string& word) {
+  const bool is_option = word.size() > 1 && word.front() == '-';
+  const std::string bare = word.substr(0, word.find('='));
+  std::string message = fmt::format("{} {}",
+                                    is_option    ? "unknown option"
+                                    : is_command ? "unexpected argument"
+                                                 : "unknown command",
+                                    is_option ? bare : word);
+  if (is_option || !is_command) {
+    const std::string meant = nearest_word(bare, is_option ? option_names(app) : command_names(app));
+    if (!meant.empty()) message += fmt::format("; did you mean {}?", meant);
+  }
+  return message;
+}
+
+}  // namespace
+
+std::string quoted_command_line(int argc, char** argv) {
+  std::string line = "floe";
+  for (int i = 1; i < argc; ++i) line += " " + quoted(argv[i]);
+  return line;
+}
+
+std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates) {
+  std::string nearest;
+  std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
+  for (const std::string& candidate : candidates) {
+    const std::size_t distance = edit_distance(word, candidate);
+    if (distance < least) {
+      least = distance;
+      nearest = candidate;
+    }
+  }
+  return nearest;
+}
+
+int report_parse_error(const CLI::App& app, const CLI::ParseError& error) {
+  if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+  const auto commands = app.get_subcommands();
+  const CLI::App& used = commands.empty() ? app : *commands.front();
+  // An option that is missing is often one that was mistyped: say that first.
+  const auto unknown = used.remaining();
+  std::string message =
+      unknown.empty() ? error.what() : unknown_word(used, !commands.empty(), unknown.front());
+  if (unknown.empty() && commands.empty()) message = "no command given";
+  const std::string called = commands.empty() ? "floe" : "floe " + used.get_name();
+  fmt::print(stderr, "floe: error: {}\nSee {} --help\n", message, called);
+  return static_cast<int>(ExitCode::usage);
+}
+
+}  // namespace floe

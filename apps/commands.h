@@ -1,0 +1,17 @@
+// The subcommands of floe. A new one is a file with a function add_NAME, declared here and called in
+// floe.cpp. `command_line` is what was typed; it goes into output files.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+
+namespace floe {
+
+void add_info(CLI::App& floe);
+void add_simulate(CLI::App& floe, const std::string& command_line);
+void add_reconstruct(CLI::App& floe);
+void add_compare(CLI::App& floe);
+void add_import(CLI::App& floe, const std::string& command_line);
+void add_export(CLI::App& floe);
+
+}  // namespace floe

@@ -1,0 +1,36 @@
+// Options that several subcommands share, so that they mean the same everywhere.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "propagation/model.h"
+
+namespace floe {
+
+// --ice, --ice-version, --detector, --without
+void add_model_options(CLI::App& app, ModelRequest& request);
+// The same without --ice and --ice-version.
+void add_detector_option(CLI::App& app, std::optional<std::string>& detector);
+CLI::Option* add_without_option(CLI::App& app, std::vector<std::string>& without);
+
+struct OutputOptions {
+  std::optional<std::string> json;  // --json FILE
+  bool quiet = false;               // --quiet
+};
+void add_output_options(CLI::App& app, OutputOptions& options);
+
+struct SimulationSettings {
+  std::uint64_t seed = 1;  // --seed
+  int threads = 0;         // --threads; 0: all cores
+  double oversize = 5;     // --oversize
+};
+void add_simulation_options(CLI::App& app, SimulationSettings& settings);
+
+// "DIR" or "DIR without birefringence": how a model is called in printouts.
+std::string model_label(const ModelRequest& request);
+
+}  // namespace floe

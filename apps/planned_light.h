@@ -1,0 +1,49 @@
+// What `floe simulate` is asked for, turned into sources of light.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/planned_output.h"
+#include "data/event.h"
+#include "propagation/model.h"
+#include "propagation/sources/cascade.h"
+#include "propagation/sources/source.h"
+
+namespace floe {
+
+struct FlasherRequest {
+  ModuleId module;
+  double photons = 0;                // N, see propagation/sources/flasher.h
+  std::optional<double> wavelength;  // [nm]; none: the middle of the 405 nm line
+  double width_deg = 9.7;
+  double elevation_deg = -0.2;
+  std::optional<double> azimuth_deg;
+  bool isotropic = false;
+};
+
+// Exactly one of these is set.
+struct LightRequest {
+  std::optional<FlasherRequest> flasher;
+  std::optional<Cascade> cascade;
+  std::optional<std::string> f2k;  // a file
+};
+Json to_json(const LightRequest& request);
+
+struct PlannedSource {
+  std::unique_ptr<Source> source;
+  bool fixed_number = false;  // emits its number of photons exactly, instead of a Poisson draw
+};
+struct PlannedEvent {
+  std::string id;
+  std::vector<Particle> truth;
+  std::vector<PlannedSource> sources;
+};
+
+// The events of the request, in order. `seed` draws how bright hadronic cascades are. Throws InputError:
+// unknown module, malformed f2k, a particle that cannot be simulated.
+std::vector<PlannedEvent> plan_light(const LightRequest& request, const Model& model, std::uint64_t seed);
+
+}  // namespace floe

@@ -1,0 +1,30 @@
+#include "apps/planned_output.h"
+
+#include <fstream>
+
+#include "data/base/error.h"
+
+namespace floe {
+
+PlannedOutput::PlannedOutput(const std::optional<std::string>& file) {
+  if (file) file_.emplace(*file);
+}
+
+void PlannedOutput::write(std::string_view content) {
+  if (!file_) return;
+  std::ofstream stream(file_->temporary(), std::ios::binary);
+  stream << content;
+  stream.close();
+  if (!stream) throw OutputError(file_->temporary().string() + ": could not be written; is the disk full?");
+  written_ = true;
+}
+
+void PlannedOutput::commit() {
+  if (written_) file_->commit();
+}
+
+std::string json_text(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+}  // namespace floe

@@ -1,0 +1,316 @@
+// floe simulate: light of a flasher, a cascade or an f2k file, through the ice, to hits in a file.
+#include <fmt/format.h>
+
+#include <memory>
+#include <set>
+
+#include "apps/commands.h"
+#include "apps/common_options.h"
+#include "apps/event_arguments.h"
+#include "apps/model_json.h"
+#include "apps/option_values.h"
+#include "apps/planned_light.h"
+#include "apps/planned_output.h"
+#include "apps/progress_bar.h"
+#include "data/base/error.h"
+#include "data/event_files.h"
+#include "propagation/engine/simulator.h"
+
+namespace floe {
+
+namespace {
+
+struct SimulateOptions {
+  ModelRequest model;
+  SimulationSettings settings;
+  OutputOptions output;
+  std::string file;  // -o
+
+  FlasherRequest flasher;
+  Cascade cascade;
+  std::string f2k;
+  std::string flasher_text, cascade_text, particle = "e-";
+};
+
+// What one event came to.
+struct EventResult {
+  std::string id;
+  SimulationSummary summary;
+  std::set<std::uint32_t> modules;  // that were hit
+};
+
+std::vector<double> parse_numbers(const std::string& option, const std::string& text, std::size_t count,
+                                  const std::string& layout) {
+  const auto parts = split_list(text);
+  if (parts.size() != count)
+    throw UsageError(
+        fmt::format("{}: found \"{}\"; expected {} numbers without blanks: {}", option, text, count, layout));
+  std::vector<double> numbers;
+  for (const std::string& part : parts) numbers.push_back(parse_option_number(option, part, any_number));
+  return numbers;
+}
+
+ModuleId parse_module(const std::string& option, const std::string& text) {
+  const auto parts = split_list(text);
+  if (parts.size() != 2)
+    throw UsageError(fmt::format("{}: found \"{}\"; expected STRING,DOM, e.g. 63,20", option, text));
+  const auto number = [&](const std::string& part) {
+    return static_cast<int>(parse_option_integer(option, part, 0, 100000));
+  };
+  return {number(parts[0]), number(parts[1])};
+}
+
+Cascade parse_cascade(const SimulateOptions& options) {
+  const std::string name = "--cascade";
+  const auto v = parse_numbers(name, options.cascade_text, 6, "x,y,z[m],zenith,azimuth[deg],energy[GeV]");
+  const auto check = [&](double value, Range range, const std::string& what) {
+    parse_option_number(name + ", " + what, fmt::format("{}", value), range);
+  };
+  for (int i = 0; i < 3; ++i) check(v[i], {-1e5, 1e5}, "position [m]");
+  check(v[3], {0, 180}, "zenith [deg]");
+  check(v[4], {-360, 360}, "azimuth [deg]");
+  check(v[5], {0, 1e9, true}, "energy [GeV]");
+  Cascade cascade = options.cascade;  // holds the time
+  cascade.position = {v[0], v[1], v[2]};
+  cascade.zenith = v[3] * degree;
+  cascade.azimuth = v[4] * degree;
+  cascade.energy = v[5];
+  cascade.kind = cascade_kind_of(options.particle);
+  return cascade;
+}
+
+LightRequest light_request(const SimulateOptions& options) {
+  const int given = !options.flasher_text.empty() + !options.cascade_text.empty() + !options.f2k.empty();
+  if (given != 1) throw UsageError("give exactly one of --flasher, --cascade and --f2k");
+  LightRequest light;
+  if (!options.f2k.empty()) light.f2k = options.f2k;
+  if (!options.cascade_text.empty()) light.cascade = parse_cascade(options);
+  if (!options.flasher_text.empty()) {
+    if (options.flasher.photons == 0) throw UsageError("--flasher needs --photons N, e.g. --photons 2e9");
+    light.flasher = options.flasher;
+    light.flasher->module = parse_module("--flasher", options.flasher_text);
+  }
+  return light;
+}
+
+Provenance provenance_of(const SimulateOptions& options, const LightRequest& light, const Model& model,
+                         const std::string& command_line) {
+  const Json configuration = {{"command", "simulate"},
+                              {"model", to_json(options.model)},
+                              {"source", to_json(light)},
+                              {"seed", options.settings.seed},
+                              {"oversize", options.settings.oversize}};
+  Provenance provenance;
+  provenance.version = FLOE_VERSION;
+  provenance.command = command_line;
+  provenance.configuration = configuration.dump();
+  provenance.ice_name = model.ice->name();
+  provenance.ice_hash = model.ice->hash();
+  provenance.detector_name = model.detector->name();
+  provenance.detector_hash = model.detector->hash();
+  provenance.seed = options.settings.seed;
+  provenance.oversize = options.settings.oversize;
+  return provenance;
+}
+
+double photons_to_propagate(const Simulator& simulator, const std::vector<PlannedEvent>& events) {
+  double photons = 0;
+  for (const PlannedEvent& event : events)
+    for (const PlannedSource& planned : event.sources)
+      photons += simulator.photons_to_propagate(*planned.source);
+  return photons;
+}
+
+// Runs all sources of all events, one after the other, each with random numbers of its own.
+class Run {
+ public:
+  Run(const Simulator& simulator, const SimulationSettings& settings, EventFileWriter& writer,
+      Progress progress)
+      : simulator_(simulator), settings_(settings), writer_(writer), progress_(std::move(progress)) {}
+
+  std::vector<EventResult> operator()(const std::vector<PlannedEvent>& events) {
+    const double all = photons_to_propagate(simulator_, events);
+    std::vector<EventResult> results;
+    for (const PlannedEvent& event : events) {
+      EventResult result{event.id, {}, {}};
+      writer_.begin_event(event.id, event.truth);
+      for (const PlannedSource& planned : event.sources) {
+        const double share = all > 0 ? simulator_.photons_to_propagate(*planned.source) / all : 0;
+        run_source(planned, event.id, share, result);
+        done_ += share;
+      }
+      results.push_back(std::move(result));
+    }
+    return results;
+  }
+
+ private:
+  void run_source(const PlannedSource& planned, const std::string& id, double share, EventResult& result) {
+    SimulationOptions options;
+    options.seed = settings_.seed;
+    options.stream = stream_++;
+    options.threads = settings_.threads;
+    options.fixed_number = planned.fixed_number;
+    const Detector& detector = *simulator_.model().detector;
+    std::vector<Hit> portion;
+    const auto sink = [&](std::span<const SimulatedHit> hits) {
+      portion.clear();
+      for (const SimulatedHit& hit : hits) {
+        portion.push_back(to_hit(hit, detector));
+        result.modules.insert(hit.module);
+      }
+      writer_.append(portion);
+    };
+    Progress progress;
+    if (progress_)
+      progress = [&](double fraction, const std::string&) {
+        progress_(done_ + share * fraction, "simulating " + id);
+      };
+    const SimulationSummary summary = simulator_.run(*planned.source, options, sink, progress);
+    result.summary.propagated += summary.propagated;
+    result.summary.hits += summary.hits;
+    result.summary.seconds += summary.seconds;
+  }
+
+  const Simulator& simulator_;
+  const SimulationSettings& settings_;
+  EventFileWriter& writer_;
+  Progress progress_;
+  std::uint64_t stream_ = 0;
+  double done_ = 0;
+};
+
+SimulationSummary total(const std::vector<EventResult>& results) {
+  SimulationSummary sum;
+  for (const EventResult& result : results) {
+    sum.propagated += result.summary.propagated;
+    sum.hits += result.summary.hits;
+    sum.seconds += result.summary.seconds;
+  }
+  return sum;
+}
+
+double photons_per_second(const SimulationSummary& summary) {
+  return summary.seconds > 0 ? static_cast<double>(summary.propagated) / summary.seconds : 0;
+}
+
+Json results_json(const std::vector<EventResult>& results, const SimulateOptions& options,
+                  const Model& model) {
+  const SimulationSummary sum = total(results);
+  Json json = {{"output", options.file},
+               {"model", to_json(model)},
+               {"seed", options.settings.seed},
+               {"photons_propagated", sum.propagated},
+               {"hits", sum.hits},
+               {"seconds", sum.seconds},
+               {"photons_per_second", photons_per_second(sum)}};
+  Json& events = json["events"] = Json::array();
+  for (const EventResult& result : results)
+    events.push_back({{"event", result.id},
+                      {"photons_propagated", result.summary.propagated},
+                      {"hits", result.summary.hits},
+                      {"modules_hit", result.modules.size()}});
+  return json;
+}
+
+void warn_of_darkness(const std::vector<EventResult>& results) {
+  for (const EventResult& result : results)
+    if (result.summary.hits == 0)
+      fmt::print(stderr,
+                 "floe: warning: event {}: no light reached a module; is the source inside the detector and "
+                 "bright enough?\n",
+                 result.id);
+}
+
+void print_results(const std::vector<EventResult>& results, const SimulateOptions& options) {
+  for (const EventResult& result : results)
+    fmt::print("{}: {} photons propagated, {} hits in {} modules\n", result.id, result.summary.propagated,
+               result.summary.hits, result.modules.size());
+  const SimulationSummary sum = total(results);
+  fmt::print("{}: {} photons propagated, {} hits, {:.2f} s, {:.3g} photons/s\n", options.file, sum.propagated,
+             sum.hits, sum.seconds, photons_per_second(sum));
+}
+
+void run_simulate(const SimulateOptions& options, const std::string& command_line) {
+  const LightRequest light = light_request(options);
+  const std::string file = require_event_file_name(options.file);
+  PlannedOutput json(options.output.json);
+  const Model model = load_model(options.model);
+  const auto events = plan_light(light, model, options.settings.seed);
+  const Simulator simulator(model, options.settings.oversize);
+
+  EventFileWriter writer(file, provenance_of(options, light, model, command_line));
+  std::vector<EventResult> results;
+  {
+    ProgressBar bar(options.output.quiet);
+    results = Run(simulator, options.settings, writer, bar.callback())(events);
+  }
+  json.write(json_text(results_json(results, options, model)));
+  writer.close();
+  json.commit();
+  warn_of_darkness(results);
+  if (!options.output.quiet) print_results(results, options);
+}
+
+void add_source_options(CLI::App& app, SimulateOptions& options) {
+  auto* flasher = app.add_option("--flasher", options.flasher_text, "Light of the LEDs of a module")
+                      ->type_name("STRING,DOM");
+  auto* cascade = app.add_option("--cascade", options.cascade_text,
+                                 "Particle shower: vertex [m], origin of its direction [deg], energy [GeV]")
+                      ->type_name("X,Y,Z,ZENITH,AZIMUTH,ENERGY");
+  app.add_option("--f2k", options.f2k, "All particles of an f2k text file, an event per EM line")
+      ->type_name("FILE");
+
+  app.add_option("--particle", options.particle, "Of the cascade: e-, e+, gamma or hadron")
+      ->type_name("NAME")
+      ->capture_default_str()
+      ->needs(cascade);
+  add_number(app, "--time", "NS", {-1e9, 1e9}, "Of the cascade's vertex", options.cascade.time)
+      ->needs(cascade);
+
+  FlasherRequest& light = options.flasher;
+  add_number(app, "--photons", "N", positive, "Of the flasher, counted as a nominal module would accept them",
+             [&light](double n) { light.photons = n; })
+      ->needs(flasher);
+  add_number(app, "--wavelength", "NM", {300, 600},
+             "Of the flasher's line, simulated whole; default: the middle of the line at 405 nm, with 0.68 "
+             "of its light",
+             [&light](double nm) { light.wavelength = nm; })
+      ->needs(flasher);
+  auto* isotropic =
+      app.add_flag("--isotropic", light.isotropic, "The flasher shines into all directions alike")
+          ->needs(flasher);
+  add_number(app, "--width", "DEG", {0, 90}, "Of the flasher's beam (sigma)", light.width_deg)
+      ->needs(flasher)
+      ->excludes(isotropic);
+  add_number(app, "--elevation", "DEG", {-90, 90}, "Of the flasher's beam above the horizontal",
+             light.elevation_deg)
+      ->needs(flasher)
+      ->excludes(isotropic);
+  add_number(app, "--azimuth", "DEG", {-360, 360}, "Of the flasher's beam; default: into all azimuths alike",
+             [&light](double azimuth) { light.azimuth_deg = azimuth; })
+      ->needs(flasher)
+      ->excludes(isotropic);
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& floe, const std::string& command_line) {
+  CLI::App& app = *floe.add_subcommand("simulate", "Propagate light through the ice and write the hits");
+  const auto options = std::make_shared<SimulateOptions>();
+  add_source_options(app, *options);
+  app.add_option("-o,--output", options->file, "Event file to write")->type_name("FILE.h5")->required();
+  add_model_options(app, options->model);
+  add_simulation_options(app, options->settings);
+  add_output_options(app, options->output);
+  app.footer(
+      "Examples:\n"
+      "  floe simulate --cascade 20,-40,-300,70,130,3000 -o event.h5\n"
+      "  floe simulate --flasher 63,20 --photons 1e7 -o flasher.h5\n"
+      "  floe simulate --ice my-ice --cascade 20,-40,-300,70,130,1000 --particle hadron --without tilt -o "
+      "hadron.h5\n"
+      "  floe simulate --f2k events.f2k --seed 2 --json summary.json -o events.h5");
+  app.callback([options, command_line] { run_simulate(*options, command_line); });
+}
+
+}  // namespace floe
