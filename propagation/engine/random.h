@@ -4,7 +4,7 @@
 
 #include <Random123/philox.h>
 
-#include <bit>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -23,24 +23,44 @@ class RandomStream {
     state_[3] |= 1;  // never all zero
   }
 
+  // A stream that goes on from the state of another one.
+  using State = std::array<std::uint32_t, 4>;
+  explicit RandomStream(const State& state) : state_(state) {}
+  const State& state() const { return state_; }
+
+  // The interface of a standard uniform random bit generator, for the distributions of <random>.
+  using result_type = std::uint32_t;
+  static constexpr result_type min() { return 0; }
+  static constexpr result_type max() { return ~result_type{0}; }
+  result_type operator()() { return bits(); }
+
   std::uint32_t bits() {
-    const std::uint32_t result = std::rotl(state_[0] + state_[3], 7) + state_[0];
-    const std::uint32_t shifted = state_[1] << 9;
-    state_[2] ^= state_[0];
-    state_[3] ^= state_[1];
-    state_[1] ^= state_[2];
-    state_[0] ^= state_[3];
-    state_[2] ^= shifted;
-    state_[3] = std::rotl(state_[3], 11);
-    return result;
+    return next(state_[0], state_[1], state_[2], state_[3]);
   }
 
-  // Uniform in (0, 1): the logarithm of it, and of one minus it, is finite.
-  float uniform() { return (static_cast<float>(bits() >> 9) + 0.5f) * 0x1p-23f; }
+  float uniform() { return to_uniform(bits()); }
   float exponential() { return -std::log(uniform()); }
 
+  // One step of the generator, on a state that lies anywhere (one lane of many photons).
+  static std::uint32_t next(std::uint32_t& s0, std::uint32_t& s1, std::uint32_t& s2, std::uint32_t& s3) {
+    const std::uint32_t sum = s0 + s3;
+    const std::uint32_t result = ((sum << 7) | (sum >> 25)) + s0;
+    const std::uint32_t shifted = s1 << 9;
+    s2 ^= s0;
+    s3 ^= s1;
+    s1 ^= s2;
+    s0 ^= s3;
+    s2 ^= shifted;
+    s3 = (s3 << 11) | (s3 >> 21);
+    return result;
+  }
+  // Uniform in (0, 1): the logarithm of it, and of one minus it, is finite.
+  static float to_uniform(std::uint32_t bits) {
+    return (static_cast<float>(static_cast<std::int32_t>(bits >> 9)) + 0.5f) * 0x1p-23f;
+  }
+
  private:
-  std::uint32_t state_[4];
+  State state_;
 };
 
 }  // namespace floe

@@ -19,6 +19,7 @@ struct SimulatedHit {
   float wavelength;  // [nm]
   Vec3f direction;   // in which the photon travels
   Vec3f inward;      // from its landing point to the module's centre, nominal size
+  std::uint64_t photon;  // its number in the run; one photon may be seen more than once
 };
 Hit to_hit(const SimulatedHit& hit, const Detector& detector);
 
@@ -36,8 +37,14 @@ struct SimulationOptions {
 struct SimulationSummary {
   std::uint64_t propagated = 0;  // photons walked
   std::uint64_t hits = 0;
+  std::uint64_t scatters = 0;    // on all paths together
+  std::uint64_t queries = 0;     // questions put to the geometry
   double seconds = 0;
 };
+
+// The plain engine walks one photon at a time in double precision and is there to be read and to test
+// against; the vector engine gives the same hits, many times faster.
+enum class EngineKind { vector, plain };
 
 // Propagates N x efficiency x max(as.dat) x (largest relative efficiency) / oversize^2 photons and
 // accepts at the module with what is left (physics: arXiv:1309.7010). The same seed gives the same hits
@@ -45,7 +52,7 @@ struct SimulationSummary {
 class Simulator {
  public:
   // Throws UsageError unless 1 <= oversize <= 100.
-  Simulator(const Model& model, double oversize);
+  Simulator(const Model& model, double oversize, EngineKind kind = EngineKind::vector);
   ~Simulator();
 
   const Model& model() const { return model_; }

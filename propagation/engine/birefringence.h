@@ -1,0 +1,72 @@
+// What birefringent polycrystalline ice does to a photon over a straight segment (arXiv:2107.08692,
+// equations of its section on the diffusion patterns): it diffuses and drifts towards the flow.
+#pragma once
+
+#include <cmath>
+
+namespace floe {
+
+// A segment's step in the plane across the photon: widths and mean [rad], x towards the nearer flow
+// direction, y = n cross x.
+template <typename Scalar>
+struct BirefringentStep {
+  Scalar sigma_x, sigma_y, mean_x;
+};
+
+// Brings the plane's point (px, py) onto the sphere by the inverse stereographic projection with
+// tan(theta/2) = p/2: returns the direction's components along x, y and its loss along n (1 - cos).
+template <typename Scalar>
+struct OnSphere {
+  Scalar x, y, loss;
+};
+template <typename Scalar>
+OnSphere<Scalar> project_onto_sphere(Scalar px, Scalar py) {
+  const Scalar hx = px / 2, hy = py / 2;
+  const Scalar q = hx * hx + hy * hy;
+  const Scalar scale = 2 / (1 + q);
+  return {scale * hx, scale * hy, scale * q};
+}
+
+// Deflects the direction n and displaces the position r at the end of a segment of length L.
+//   direction: Gaussian (sigma_x, sigma_y) around (mean_x, 0), from the two standard normals g1, g2;
+//   position:  mean delta_n L/2 with the direction's own change delta_n, and independently a variance
+//              sigma^2 L^2/12 per axis, from g3, g4.
+// (flow_x, flow_y) is the unit vector of the flow axis in the horizontal plane.
+template <typename Scalar>
+void birefringent_deflection(const BirefringentStep<Scalar>& step, Scalar flow_x, Scalar flow_y, Scalar g1,
+                             Scalar g2, Scalar g3, Scalar g4, Scalar displacement_length, Scalar& nx, Scalar& ny,
+                             Scalar& nz, Scalar& rx, Scalar& ry, Scalar& rz) {
+  // x axis: the part of the nearer flow direction that is across n. Along the flow it has no direction,
+  // and the photon's step none either but for its widths: any axis does.
+  const Scalar along = flow_x * nx + flow_y * ny;
+  const Scalar side = along < 0 ? Scalar(-1) : Scalar(1);
+  Scalar xx = side * (flow_x - along * nx), xy = side * (flow_y - along * ny), xz = -side * along * nz;
+  const Scalar square = xx * xx + xy * xy + xz * xz;
+  const bool parallel = square < Scalar(1e-12);
+  const Scalar norm = 1 / std::sqrt(parallel ? Scalar(1) : square);
+  xx = parallel ? Scalar(0) : xx * norm;
+  xy = parallel ? Scalar(0) : xy * norm;
+  xz = parallel ? Scalar(1) : xz * norm;
+  const Scalar yx = ny * xz - nz * xy, yy = nz * xx - nx * xz, yz = nx * xy - ny * xx;
+
+  const Scalar px = step.sigma_x * g1 + step.mean_x, py = step.sigma_y * g2;
+
+  constexpr Scalar one_over_root_three = Scalar(0.57735026918962576);
+  const OnSphere<Scalar> chord = project_onto_sphere(px + step.sigma_x * one_over_root_three * g3,
+                                                     py + step.sigma_y * one_over_root_three * g4);
+  const Scalar half = displacement_length / 2;
+  rx += half * (chord.x * xx + chord.y * yx - chord.loss * nx);
+  ry += half * (chord.x * xy + chord.y * yy - chord.loss * ny);
+  rz += half * (chord.x * xz + chord.y * yz - chord.loss * nz);
+
+  const OnSphere<Scalar> turn = project_onto_sphere(px, py);
+  nx += turn.x * xx + turn.y * yx - turn.loss * nx;
+  ny += turn.x * xy + turn.y * yy - turn.loss * ny;
+  nz += turn.x * xz + turn.y * yz - turn.loss * nz;
+  const Scalar length = 1 / std::sqrt(nx * nx + ny * ny + nz * nz);
+  nx *= length;
+  ny *= length;
+  nz *= length;
+}
+
+}  // namespace floe

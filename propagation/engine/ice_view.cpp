@@ -1,0 +1,69 @@
+#include "propagation/engine/ice_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "data/base/constants.h"
+
+namespace floe {
+
+IceView::IceView(const IceModel& ice)
+    : last_layer(static_cast<int>(ice.layers().size()) - 1),
+      z_bottom(static_cast<float>(ice.z_bottom())),
+      step(static_cast<float>(ice.layer_step())),
+      layers_per_metre(static_cast<float>(1 / ice.layer_step())),
+      anisotropic_scattering(false),
+      old_absorption_scaling(static_cast<float>(ice.old_absorption_scaling())),
+      flow_x(static_cast<float>(std::cos(ice.flow_azimuth()))),
+      flow_y(static_cast<float>(std::sin(ice.flow_azimuth()))),
+      absorption_K1(static_cast<float>(ice.absorption_anisotropy()[0])),
+      absorption_K2(static_cast<float>(ice.absorption_anisotropy()[1])),
+      absorption_Kz(static_cast<float>(ice.absorption_anisotropy()[2])),
+      scattering{static_cast<float>(ice.simplified_liu_fraction()), static_cast<float>(ice.mean_cosine())},
+      birefringent(ice.birefringence().has_value()),
+      displacement(birefringent && ice.birefringence()->displacement) {
+  const double geometric = 1 / (1 - ice.mean_cosine());
+  for (const IceLayer& layer : ice.layers()) {
+    scattering_constant.push_back(static_cast<float>(geometric * layer.scattering_constant));
+    scattering_power.push_back(static_cast<float>(geometric * layer.scattering_power));
+    absorption_dust.push_back(static_cast<float>(layer.absorption_dust));
+    absorption_thermal.push_back(static_cast<float>(layer.absorption_thermal));
+    diffusion.push_back(static_cast<float>(layer.diffusion_strength));
+    deflection.push_back(static_cast<float>(layer.deflection_strength));
+    k1.push_back(static_cast<float>(layer.k1));
+    k2.push_back(static_cast<float>(layer.k2));
+    anisotropic_scattering |= layer.k1 != 0 || layer.k2 != 0;
+  }
+  if (birefringent) {
+    const BirefringenceNumbers& numbers = *ice.birefringence();
+    for (int i = 0; i <= birefringence_intervals; ++i) {
+      // The ends themselves have drift 0/0: a place just inside has the limit.
+      const double cosine = std::clamp(static_cast<double>(i) / birefringence_intervals, 1e-6, 1 - 1e-9);
+      const DiffusionStep one_metre = diffusion_step(numbers, cosine);
+      sigma_x.push_back(numbers.diffusion ? static_cast<float>(one_metre.sigma_x) : 0.0f);
+      sigma_y.push_back(numbers.diffusion ? static_cast<float>(one_metre.sigma_y) : 0.0f);
+      const double steep = cosine * std::sqrt(1 - cosine * cosine);
+      drift.push_back(numbers.deflection ? static_cast<float>(one_metre.mean_x / steep) : 0.0f);
+    }
+  }
+  for (int wavelength = shortest; wavelength <= longest; ++wavelength) {
+    // Outside its range the refractive index is continued by the value at the range's end.
+    const double inside = std::clamp<double>(wavelength, 250, 700);
+    factors_.push_back({static_cast<float>(ice.scattering_power_factor(wavelength)),
+                        static_cast<float>(ice.absorption_dust_factor(wavelength)),
+                        static_cast<float>(ice.absorption_thermal_factor(wavelength)),
+                        static_cast<float>(group_index(inside) / speed_of_light)});
+  }
+}
+
+IceView::WavelengthFactors IceView::factors(float wavelength) const {
+  const float place = std::clamp(wavelength, static_cast<float>(shortest), static_cast<float>(longest)) - shortest;
+  const int index = std::min(static_cast<int>(place), longest - shortest - 1);
+  const float w = place - static_cast<float>(index);
+  const WavelengthFactors &a = factors_[index], &b = factors_[index + 1];
+  const auto mix = [w](float p, float q) { return p + w * (q - p); };
+  return {mix(a.scattering_power, b.scattering_power), mix(a.absorption_dust, b.absorption_dust),
+          mix(a.absorption_thermal, b.absorption_thermal), mix(a.slowness, b.slowness)};
+}
+
+}  // namespace floe

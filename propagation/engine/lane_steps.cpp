@@ -1,0 +1,222 @@
+// Compiled with fast-math: nothing here may depend on NaN, infinity or the order of a sum. Every loop
+// over lanes is meant to become vector code; -fopt-info-vec tells whether it did.
+#include "propagation/engine/lane_steps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "propagation/engine/anisotropy.h"
+#include "propagation/engine/birefringence.h"
+#include "propagation/engine/turn.h"
+
+namespace floe {
+
+namespace {
+
+constexpr int N = Lanes::count;
+
+inline float draw(Lanes& lanes, int i) {
+  return RandomStream::to_uniform(
+      RandomStream::next(lanes.random0[i], lanes.random1[i], lanes.random2[i], lanes.random3[i]));
+}
+
+// Absorption's dependence on the direction, per lane.
+void anisotropic_absorption(const IceView& ice, const Lanes& lanes, float* factor) {
+#pragma omp simd
+  for (int i = 0; i < N; ++i) {
+    const float n1 = ice.flow_x * lanes.nx[i] + ice.flow_y * lanes.ny[i];
+    const float n2 = -ice.flow_y * lanes.nx[i] + ice.flow_x * lanes.ny[i];
+    factor[i] = absorption_anisotropy_factor(ice.absorption_K1, ice.absorption_K2, ice.absorption_Kz, n1, n2,
+                                             lanes.nz[i]);
+  }
+  if (ice.old_absorption_scaling == 0) return;
+  const float* k1 = ice.k1.data();
+  const float* k2 = ice.k2.data();
+#pragma omp simd
+  for (int i = 0; i < N; ++i) {
+    const float n1 = ice.flow_x * lanes.nx[i] + ice.flow_y * lanes.ny[i];
+    const float n2 = -ice.flow_y * lanes.nx[i] + ice.flow_x * lanes.ny[i];
+    factor[i] *= old_absorption_factor(k1[lanes.layer[i]], k2[lanes.layer[i]], ice.old_absorption_scaling, n1,
+                                       n2, lanes.nz[i]);
+  }
+}
+
+// A direction's z component, kept away from 0 so that distances to layer boundaries stay finite.
+inline float slope_of(float nz) { return std::copysign(std::max(std::fabs(nz), 1e-9f), nz); }
+
+}  // namespace
+
+void draw_scattering_depths(Lanes& lanes) {
+#pragma omp simd
+  for (int i = 0; i < N; ++i) lanes.scattering_depth[i] = -std::log(draw(lanes, i));
+}
+
+void find_segments(const IceView& ice, Lanes& lanes) {
+  const float* scattering_constant = ice.scattering_constant.data();
+  const float* scattering_power = ice.scattering_power.data();
+  const float* absorption_dust = ice.absorption_dust.data();
+  const float* absorption_thermal = ice.absorption_thermal.data();
+  const float* diffusion = ice.diffusion.data();
+  const float* deflection = ice.deflection.data();
+  const int last = ice.last_layer;
+
+  const float bottom_of_top = static_cast<float>(last);
+#pragma omp simd
+  for (int i = 0; i < N; ++i) {
+    const float inside = std::min(std::max(lanes.height[i], 0.0f), bottom_of_top);
+    lanes.layer[i] = static_cast<std::int32_t>(inside);
+  }
+  alignas(64) float factor[N];
+  anisotropic_absorption(ice, lanes, factor);
+
+  // What is left for the following layers, for lanes that leave the first one.
+  alignas(64) std::int32_t crosses[N];
+#pragma omp simd
+  for (int i = 0; i < N; ++i) {
+    const int layer = lanes.layer[i];
+    const float scattering = scattering_constant[layer] + scattering_power[layer] * lanes.scattering_power[i];
+    const float absorption = factor[i] * (absorption_dust[layer] * lanes.absorption_dust[i] +
+                                          absorption_thermal[layer] * lanes.absorption_thermal[i]);
+    const float to_scatter = lanes.scattering_depth[i] / scattering;
+    const float to_absorb = lanes.absorption_depth[i] / absorption;
+    const float slope = slope_of(lanes.nz[i]);
+    const bool up = slope > 0;
+    const float boundary = static_cast<float>(layer + (up ? 1 : 0));
+    const float reach = std::max(0.0f, (boundary - lanes.height[i]) * ice.step / slope);
+    const bool outermost = up ? layer == last : layer == 0;
+    const float to_boundary = outermost ? 1e30f : reach;
+    const float length = std::min(std::min(to_scatter, to_absorb), to_boundary);
+    lanes.length[i] = length;
+    lanes.diffusion[i] = length * diffusion[layer];
+    lanes.deflection[i] = length * deflection[layer];
+    lanes.scattering_depth[i] -= length * scattering;
+    lanes.absorption_depth[i] -= length * absorption;
+    crosses[i] = to_boundary <= length;
+    lanes.absorbed[i] = to_absorb <= to_scatter;
+  }
+
+  // Most segments end in their first layer; the others go on one at a time.
+  for (int i = 0; i < N; ++i) {
+    if (!crosses[i]) continue;
+    const float slope = slope_of(lanes.nz[i]);
+    const int next = slope > 0 ? 1 : -1;
+    const float through = ice.step / std::fabs(slope);
+    int layer = lanes.layer[i] + next;
+    for (;; layer += next) {
+      const float scattering = scattering_constant[layer] + scattering_power[layer] * lanes.scattering_power[i];
+      const float absorption = factor[i] * (absorption_dust[layer] * lanes.absorption_dust[i] +
+                                            absorption_thermal[layer] * lanes.absorption_thermal[i]);
+      const float to_scatter = std::max(0.0f, lanes.scattering_depth[i]) / scattering;
+      const float to_absorb = std::max(0.0f, lanes.absorption_depth[i]) / absorption;
+      const bool outermost = next > 0 ? layer == last : layer == 0;
+      const float length = std::min({to_scatter, to_absorb, outermost ? 1e30f : through});
+      lanes.length[i] += length;
+      lanes.diffusion[i] += length * diffusion[layer];
+      lanes.deflection[i] += length * deflection[layer];
+      lanes.scattering_depth[i] -= length * scattering;
+      lanes.absorption_depth[i] -= length * absorption;
+      lanes.absorbed[i] = to_absorb <= to_scatter;
+      if (outermost || length < through) break;
+    }
+    lanes.layer[i] = layer;
+  }
+}
+
+namespace {
+
+void advance(Lanes& lanes) {
+#pragma omp simd
+  for (int i = 0; i < N; ++i) {
+    lanes.x[i] += lanes.length[i] * lanes.nx[i];
+    lanes.y[i] += lanes.length[i] * lanes.ny[i];
+    lanes.z[i] += lanes.length[i] * lanes.nz[i];
+    lanes.time[i] += lanes.length[i] * lanes.slowness[i];
+  }
+}
+
+void birefringent_step(const IceView& ice, Lanes& lanes) {
+  const float* sigma_x = ice.sigma_x.data();
+  const float* sigma_y = ice.sigma_y.data();
+  const float* drift = ice.drift.data();
+  const float displaced = ice.displacement ? 1.0f : 0.0f;
+#pragma omp simd
+  for (int i = 0; i < N; ++i) {
+    const float radius_12 = std::sqrt(-2 * std::log(draw(lanes, i)));
+    const TurnFunctions turn_12 = turn_functions(draw(lanes, i));
+    const float radius_34 = std::sqrt(-2 * std::log(draw(lanes, i)));
+    const TurnFunctions turn_34 = turn_functions(draw(lanes, i));
+
+    const float cosine = std::min(1.0f, std::fabs(ice.flow_x * lanes.nx[i] + ice.flow_y * lanes.ny[i]));
+    const float steep = cosine * std::sqrt(1 - cosine * cosine);
+    const float place = cosine * IceView::birefringence_intervals;
+    const int index = std::min(static_cast<int>(place), IceView::birefringence_intervals - 1);
+    const float w = place - static_cast<float>(index);
+    const float width = std::sqrt(std::max(0.0f, lanes.diffusion[i]));
+    const BirefringentStep<float> step{
+        width * (sigma_x[index] + w * (sigma_x[index + 1] - sigma_x[index])),
+        width * (sigma_y[index] + w * (sigma_y[index + 1] - sigma_y[index])),
+        lanes.deflection[i] * steep * (drift[index] + w * (drift[index + 1] - drift[index]))};
+
+    float nx = lanes.nx[i], ny = lanes.ny[i], nz = lanes.nz[i];
+    float x = lanes.x[i], y = lanes.y[i], z = lanes.z[i];
+    birefringent_deflection(step, ice.flow_x, ice.flow_y, radius_12 * turn_12.cosine, radius_12 * turn_12.sine,
+                            radius_34 * turn_34.cosine, radius_34 * turn_34.sine, displaced * lanes.length[i], nx,
+                            ny, nz, x, y, z);
+    lanes.nx[i] = nx;
+    lanes.ny[i] = ny;
+    lanes.nz[i] = nz;
+    lanes.x[i] = x;
+    lanes.y[i] = y;
+    lanes.z[i] = z;
+  }
+}
+
+// Into the stretched space of anisotropic scattering (sign +1) and back (sign -1).
+void stretch(const IceView& ice, Lanes& lanes, float sign) {
+  const float* k1 = ice.k1.data();
+  const float* k2 = ice.k2.data();
+#pragma omp simd
+  for (int i = 0; i < N; ++i) {
+    float n1 = ice.flow_x * lanes.nx[i] + ice.flow_y * lanes.ny[i];
+    float n2 = -ice.flow_y * lanes.nx[i] + ice.flow_x * lanes.ny[i];
+    float n3 = lanes.nz[i];
+    stretch_direction(std::exp(sign * k1[lanes.layer[i]]), std::exp(sign * k2[lanes.layer[i]]), n1, n2, n3);
+    lanes.nx[i] = ice.flow_x * n1 - ice.flow_y * n2;
+    lanes.ny[i] = ice.flow_y * n1 + ice.flow_x * n2;
+    lanes.nz[i] = n3;
+  }
+}
+
+void scatter(const IceView& ice, Lanes& lanes) {
+  const ScatteringFunction<float> function = ice.scattering;
+#pragma omp simd
+  for (int i = 0; i < N; ++i) {
+    const float loss = function.one_minus_cos(draw(lanes, i));
+    const TurnFunctions turn = turn_functions(draw(lanes, i));
+    const float sine = std::sqrt(loss * (2 - loss));
+    // The frame around n of directions.h, written out for one lane.
+    const float nx = lanes.nx[i], ny = lanes.ny[i], nz = lanes.nz[i];
+    const float sign = std::copysign(1.0f, nz);
+    const float a = -1 / (sign + nz), b = nx * ny * a;
+    const float c = sine * turn.cosine, s = sine * turn.sine;
+    const float mx = nx - loss * nx + c * (1 + sign * nx * nx * a) + s * b;
+    const float my = ny - loss * ny + c * sign * b + s * (sign + ny * ny * a);
+    const float mz = nz - loss * nz - c * sign * nx - s * ny;
+    const float norm = 1 / std::sqrt(mx * mx + my * my + mz * mz);
+    lanes.nx[i] = mx * norm;
+    lanes.ny[i] = my * norm;
+    lanes.nz[i] = mz * norm;
+  }
+}
+
+}  // namespace
+
+void advance_and_scatter(const IceView& ice, Lanes& lanes) {
+  advance(lanes);
+  if (ice.birefringent) birefringent_step(ice, lanes);
+  if (ice.anisotropic_scattering) stretch(ice, lanes, 1);
+  scatter(ice, lanes);
+  if (ice.anisotropic_scattering) stretch(ice, lanes, -1);
+}
+
+}  // namespace floe

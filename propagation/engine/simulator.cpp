@@ -1,0 +1,112 @@
+#include "propagation/engine/simulator.h"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <random>
+
+#include "data/base/error.h"
+#include "propagation/engine/photon_acceptance.h"
+#include "propagation/engine/walker.h"
+
+namespace floe {
+
+namespace {
+
+// The photon id from which the number of photons is drawn: no photon of any source gets that far.
+constexpr std::uint64_t id_of_count_draw = std::numeric_limits<std::uint64_t>::max();
+constexpr std::uint32_t batch_size = 1u << 15;
+
+std::uint64_t number_to_draw(double expected, const SimulationOptions& options) {
+  if (!(expected >= 0 && expected < 1e18))
+    throw UsageError(fmt::format("cannot propagate {} photons; at most 1e18 at a time", expected));
+  if (options.fixed_number) return static_cast<std::uint64_t>(std::llround(expected));
+  RandomStream random(options.seed, options.stream, id_of_count_draw);
+  return std::poisson_distribution<std::uint64_t>(expected)(random);
+}
+
+}  // namespace
+
+Hit to_hit(const SimulatedHit& hit, const Detector& detector) {
+  Hit result;
+  result.module = detector.modules()[hit.module].id;
+  result.time = hit.time;
+  result.wavelength = hit.wavelength;
+  result.direction = hit.direction;
+  result.inward = hit.inward;
+  return result;
+}
+
+struct Simulator::Engine {
+  std::unique_ptr<PhotonWalker> walker;
+  PhotonAcceptance acceptance;
+};
+
+Simulator::Simulator(const Model& model, double oversize, EngineKind kind)
+    : model_(model), oversize_(oversize) {
+  if (!(oversize >= 1 && oversize <= 100))
+    throw UsageError(fmt::format("the oversize factor must be between 1 and 100, found {}", oversize));
+  if (model.ice->tables().configuration.hole_ice.radius > 0)
+    throw UsageError("the hole-ice column of this ice model is not simulated yet; its effect on the angular "
+                     "acceptance is in as.dat. Switch the column off with --without hole-ice");
+  auto walker = kind == EngineKind::plain ? make_plain_walker(model, oversize) : make_vector_walker(model, oversize);
+  engine_.reset(new Engine{std::move(walker), PhotonAcceptance(*model.detector, model.acceptance)});
+}
+
+Simulator::~Simulator() = default;
+
+double Simulator::photons_to_propagate(const Source& source) const {
+  return source.photons() * engine_->acceptance.largest_share() / (oversize_ * oversize_);
+}
+
+SimulationSummary Simulator::run(const Source& source, const SimulationOptions& options, const HitSink& sink,
+                                 const Progress& progress) const {
+  const auto start = std::chrono::steady_clock::now();
+  const std::uint64_t photons = number_to_draw(options.scale * photons_to_propagate(source), options);
+  const auto batches = static_cast<std::int64_t>((photons + batch_size - 1) / batch_size);
+  const int threads = options.threads > 0 ? options.threads : omp_get_num_procs();
+  SimulationSummary summary;
+  std::exception_ptr failure;
+
+#pragma omp parallel for schedule(dynamic) ordered num_threads(threads)
+  for (std::int64_t b = 0; b < batches; ++b) {
+    const std::uint64_t first = static_cast<std::uint64_t>(b) * batch_size;
+    const PhotonBatch batch{options.seed, options.stream, first,
+                            static_cast<std::uint32_t>(std::min<std::uint64_t>(batch_size, photons - first))};
+    std::vector<SimulatedHit> hits;
+    WalkerCounts counts;
+    std::exception_ptr problem;
+    try {
+      counts = engine_->walker->walk(source, batch, hits);
+    } catch (...) {
+      problem = std::current_exception();
+    }
+#pragma omp ordered
+    {
+      // Exceptions must not leave a parallel loop: the first one is kept and thrown after it.
+      try {
+        if (problem) std::rethrow_exception(problem);
+        if (!failure) {
+          summary.propagated += counts.walked;
+          summary.scatters += counts.scatters;
+          summary.queries += counts.queries;
+          summary.hits += hits.size();
+          if (!hits.empty()) sink(hits);
+          if (progress) progress(static_cast<double>(b + 1) / static_cast<double>(batches), "propagating photons");
+        }
+      } catch (...) {
+        if (!failure) failure = std::current_exception();
+      }
+    }
+  }
+  if (failure) std::rethrow_exception(failure);
+  summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return summary;
+}
+
+}  // namespace floe

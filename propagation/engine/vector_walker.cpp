@@ -1,0 +1,174 @@
+// Walks many photons at once: the lanes step together (lane_steps.h), each lane asks for modules on its
+// own and only when one can be in reach, and a lane whose photon has ended gets the next one.
+#include <algorithm>
+#include <utility>
+
+#include "geometry/module_scene.h"
+#include "propagation/engine/lane_steps.h"
+#include "propagation/engine/photon_acceptance.h"
+#include "propagation/engine/walker.h"
+
+namespace floe {
+
+namespace {
+
+class VectorWalker : public PhotonWalker {
+ public:
+  VectorWalker(const Model& model, double oversize)
+      : model_(model),
+        tilt_(model.ice->tilt()),
+        ice_(*model.ice),
+        stops_at_module_(oversize == 1),
+        finder_(make_embree_finder(*model.detector, oversize)),
+        clearance_(*model.detector, oversize),
+        acceptance_(*model.detector, model.acceptance) {}
+
+  WalkerCounts walk(const Source& source, const PhotonBatch& batch,
+                    std::vector<SimulatedHit>& hits) const override {
+    Batch work{source, batch, batch.first, {}, {}, {}, {}};
+    int alive = 0;
+    for (int lane = 0; lane < Lanes::count; ++lane) alive += next_photon(work, lane);
+    while (alive > 0) {
+      draw_scattering_depths(work.lanes);
+      find_heights(work.lanes);
+      find_segments(ice_, work.lanes);
+      for (int lane = 0; lane < Lanes::count; ++lane) {
+        if (work.lanes.number[lane] < 0) continue;
+        const bool stopped = meet_modules(work, lane);
+        work.lanes.absorbed[lane] |= stopped;
+      }
+      advance_and_scatter(ice_, work.lanes);
+      for (int lane = 0; lane < Lanes::count; ++lane) {
+        if (work.lanes.number[lane] < 0) continue;
+        if (work.lanes.absorbed[lane])
+          alive -= !next_photon(work, lane);
+        else
+          ++work.counts.scatters, ++work.lanes.scatters[lane];
+      }
+    }
+    hand_over(work, hits);
+    return work.counts;
+  }
+
+ private:
+  struct Batch {
+    const Source& source;
+    const PhotonBatch& batch;
+    std::uint64_t next;
+    Lanes lanes;
+    WalkerCounts counts;
+    std::vector<SimulatedHit> hits;
+    std::vector<ModuleCrossing> crossings;
+  };
+
+  // Gives the lane the batch's next photon; without one, a lane that steps along and is never looked at.
+  bool next_photon(Batch& work, int lane) const {
+    Lanes& lanes = work.lanes;
+    for (; work.next < work.batch.first + work.batch.count; ++work.next) {
+      RandomStream random(work.batch.seed, work.batch.stream, work.next);
+      const EmittedPhoton born = work.source.emit(random);
+      if (random.uniform() >= acceptance_.walked_share(born.wavelength)) continue;
+      start(lanes, lane, born, random.exponential());
+      lanes.set_stream(lane, random);
+      lanes.number[lane] = static_cast<std::int64_t>(work.next - work.batch.first);
+      ++work.next;
+      ++work.counts.walked;
+      return true;
+    }
+    start(lanes, lane, {Vec3f::Zero(), 0, Vec3f::UnitX(), 400}, 1);
+    lanes.set_stream(lane, RandomStream(0, 0, static_cast<std::uint64_t>(lane)));
+    lanes.number[lane] = -1;
+    return false;
+  }
+
+  void start(Lanes& lanes, int lane, const EmittedPhoton& born, float absorption_depth) const {
+    lanes.x[lane] = born.position.x();
+    lanes.y[lane] = born.position.y();
+    lanes.z[lane] = born.position.z();
+    lanes.time[lane] = born.time;
+    lanes.nx[lane] = born.direction.x();
+    lanes.ny[lane] = born.direction.y();
+    lanes.nz[lane] = born.direction.z();
+    lanes.absorption_depth[lane] = absorption_depth;
+    const IceView::WavelengthFactors factors = ice_.factors(born.wavelength);
+    lanes.wavelength[lane] = born.wavelength;
+    lanes.scattering_power[lane] = factors.scattering_power;
+    lanes.absorption_dust[lane] = factors.absorption_dust;
+    lanes.absorption_thermal[lane] = factors.absorption_thermal;
+    lanes.slowness[lane] = factors.slowness;
+    lanes.clearance[lane] = 0;
+    lanes.scatters[lane] = 0;
+  }
+
+  void find_heights(Lanes& lanes) const {
+    for (int i = 0; i < Lanes::count; ++i) {
+      const float shift = tilt_.is_flat() ? 0 : tilt_.shift(lanes.x[i], lanes.y[i], lanes.z[i]);
+      lanes.height[i] = (lanes.z[i] - shift - ice_.z_bottom) * ice_.layers_per_metre;
+    }
+  }
+
+  // True when the photon ends here: on a module of nominal size, or back on the module that emitted it.
+  bool meet_modules(Batch& work, int lane) const {
+    Lanes& lanes = work.lanes;
+    const float length = lanes.length[lane];
+    // A displaced photon ends no farther from its start than the segment's length.
+    lanes.clearance[lane] -= length;
+    if (lanes.clearance[lane] > 0) return false;
+    const Vec3f origin{lanes.x[lane], lanes.y[lane], lanes.z[lane]};
+    const float clear = clearance_(origin);
+    lanes.clearance[lane] = clear - length;
+    if (length < clear) return false;
+
+    ++work.counts.queries;
+    const Vec3f direction{lanes.nx[lane], lanes.ny[lane], lanes.nz[lane]};
+    work.crossings.clear();
+    finder_->find(origin, direction, length, work.crossings);
+    if (work.crossings.empty()) return false;
+    RandomStream random = lanes.stream(lane);
+    const bool stopped = land(work, lane, origin, direction, random);
+    lanes.set_stream(lane, random);
+    return stopped;
+  }
+
+  bool land(Batch& work, int lane, const Vec3f& origin, const Vec3f& direction, RandomStream& random) const {
+    const Lanes& lanes = work.lanes;
+    for (ModuleCrossing crossing : work.crossings) {
+      if (work.source.emitting_module() == crossing.module) {
+        const Vec3f centre = model_.detector->modules()[crossing.module].position.cast<float>();
+        if (lanes.scatters[lane] > 0 && cross_module(centre, 1, origin, direction, lanes.length[lane], crossing))
+          return true;
+        continue;
+      }
+      if (acceptance_.accepts(crossing, direction, lanes.wavelength[lane], random)) {
+        const float time = lanes.time[lane] + crossing.distance * lanes.slowness[lane];
+        const std::uint64_t photon = work.batch.first + static_cast<std::uint64_t>(lanes.number[lane]);
+        work.hits.push_back({crossing.module, time, lanes.wavelength[lane], direction, crossing.inward, photon});
+      }
+      if (stops_at_module_) return true;
+    }
+    return false;
+  }
+
+  // Photons end out of order; hits leave in the order of the photons.
+  static void hand_over(Batch& work, std::vector<SimulatedHit>& hits) {
+    std::stable_sort(work.hits.begin(), work.hits.end(),
+                     [](const SimulatedHit& a, const SimulatedHit& b) { return a.photon < b.photon; });
+    hits.insert(hits.end(), work.hits.begin(), work.hits.end());
+  }
+
+  const Model model_;
+  const LayerTilt& tilt_;
+  IceView ice_;
+  bool stops_at_module_;
+  std::unique_ptr<ModuleFinder> finder_;
+  ClearanceMap clearance_;
+  PhotonAcceptance acceptance_;
+};
+
+}  // namespace
+
+std::unique_ptr<PhotonWalker> make_vector_walker(const Model& model, double oversize) {
+  return std::make_unique<VectorWalker>(model, oversize);
+}
+
+}  // namespace floe
