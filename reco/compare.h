@@ -25,8 +25,8 @@ struct ModelComparison {
   bool usable() const { return fits[0].usable() && fits[1].usable(); }
 };
 
-// The two models must have the same modules (UsageError otherwise). B's fit begins at A's result, and
-// moves from there as far as it wants to. Errors as in fit_cascade.
+// The two models must have the same modules at the same places (UsageError otherwise). B's fit begins at A's
+// result, and moves from there as far as it wants to. Errors as in fit_cascade.
 ModelComparison compare_models(const Model& a, const Model& b, const Event& event,
                                const FitOptions& options = {}, const Progress& progress = {});
 

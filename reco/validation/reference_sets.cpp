@@ -12,7 +12,7 @@ namespace floe {
 namespace {
 
 constexpr double reference_oversize = 5;
-constexpr double level = 0.001;        // of every test, over the number of modules tried
+constexpr double level = 0.001;  // of every test, over the number of modules tried
 constexpr double total_tolerance = 0.02;
 
 std::unique_ptr<Source> make_source(const ReferenceSet& set, const Model& model) {
@@ -82,9 +82,9 @@ ValidationResult validate_set(const ReferenceSet& set, const ValidationOptions& 
   simulation.threads = options.threads;
   simulation.scale = options.share;
   ValidationResult result;
-  result.simulation =
-      simulator.run(*make_source(set, simulator.model()), simulation,
-                    [&](std::span<const SimulatedHit> portion) { collector(portion); }, progress);
+  result.simulation = simulator.run(
+      *make_source(set, simulator.model()), simulation,
+      [&](std::span<const SimulatedHit> portion) { collector(portion); }, progress);
   result.dispersion = collector.dispersion();
 
   const SampleComparison& c = result.comparison =

@@ -14,12 +14,12 @@ namespace floe {
 
 // A set: a file of hits, and how to make them again.
 struct ReferenceSet {
-  std::string name;       // of the file, without .hits.gz
-  std::string ice;        // name of the public ice model
+  std::string name;  // of the file, without .hits.gz
+  std::string ice;   // name of the public ice model
   std::vector<std::string> without;
   enum class Kind { flasher, isotropic_flash, cascade } kind;
-  ModuleId module;        // of the flasher
-  double photons;         // N of the flasher; unused for the cascade
+  ModuleId module;  // of the flasher
+  double photons;   // N of the flasher; unused for the cascade
 };
 std::vector<ReferenceSet> reference_sets();
 

@@ -38,8 +38,8 @@ void test_module(ModuleTests& tests, ModuleId module, const std::vector<const Hi
 
 }  // namespace
 
-SampleComparison compare_samples(std::span<const Hit> a, double scale_a, std::span<const Hit> b, double scale_b,
-                                 double dispersion) {
+SampleComparison compare_samples(std::span<const Hit> a, double scale_a, std::span<const Hit> b,
+                                 double scale_b, double dispersion) {
   SampleComparison result;
   result.hits_a = static_cast<double>(a.size());
   result.hits_b = static_cast<double>(b.size());

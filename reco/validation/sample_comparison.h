@@ -18,9 +18,9 @@ struct ModuleTests {
 
 struct SampleComparison {
   double hits_a = 0, hits_b = 0;
-  double ratio = 0, ratio_error = 0;      // of the totals, a / b, per repetition of the source
-  double chi_square = 0;                  // of hits per module
-  int modules = 0;                        // in the chi-square: 20 hits or more (expected from both samples)
+  double ratio = 0, ratio_error = 0;  // of the totals, a / b, per repetition of the source
+  double chi_square = 0;              // of hits per module
+  int modules = 0;                    // in the chi-square: 20 hits or more (expected from both samples)
   double chi_square_p = 1;
   ModuleTests times, zeniths, azimuths, impacts;
 };
@@ -28,7 +28,7 @@ struct SampleComparison {
 // `scale_a`, `scale_b`: how many repetitions of the source each sample holds. Modules with 200 hits or
 // more in both samples are tested for times and directions. A photon that meets a module again makes
 // counts over-dispersed: `dispersion` is the variance of a count over its mean (1: Poisson).
-SampleComparison compare_samples(std::span<const Hit> a, double scale_a, std::span<const Hit> b, double scale_b,
-                                 double dispersion);
+SampleComparison compare_samples(std::span<const Hit> a, double scale_a, std::span<const Hit> b,
+                                 double scale_b, double dispersion);
 
 }  // namespace floe

@@ -1,0 +1,193 @@
+#include "reco/direct_fit/cascade_fit.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "data/base/error.h"
+#include "reco/direct_fit/goodness_of_fit.h"
+#include "reco/direct_fit/instrumented_volume.h"
+#include "reco/direct_fit/search.h"
+#include "reco/direct_fit/seed.h"
+#include "reco/direct_fit/track_test.h"
+
+namespace floe {
+namespace {
+
+constexpr double outside_by = 60;                                    // from the instrumented volume [m]
+constexpr int evaluations = 3;                                       // independent simulations of the result
+constexpr std::uint64_t evaluation_stream = std::uint64_t{1} << 40;  // beyond those of the search
+constexpr std::size_t pictured_modules = 12;
+
+void check(const FitOptions& o) {
+  const auto need = [](bool valid, const std::string& what) {
+    if (!valid) throw UsageError("cascade fit: " + what);
+  };
+  need(o.oversize >= 1 && o.oversize <= 100, "oversize must be 1 to 100");
+  need(o.model_error >= 0 && o.model_error <= 2, "model error must be 0 to 2");
+  need(o.noise_rate >= 0 && o.noise_rate <= 1e6, "noise rate must be 0 to 1e6 per second");
+  need(std::isfinite(o.effort) && o.effort > 0, "effort must be above 0");
+  need(o.max_rounds >= 1, "at least one round is needed");
+  need(o.threads >= 0, "the number of threads must not be negative");
+  need(!o.start || (o.start->energy > 0 && to_vector(*o.start).allFinite()), "the start must be a cascade");
+}
+
+// Measured and expected charge against time, of one event.
+ArrivalTimes arrival_times(const EventData& data, const ModuleData& lit, const Evaluation& evaluation,
+                           double vertex_time) {
+  constexpr std::size_t most_bins = 150;
+  ArrivalTimes result;
+  result.module = data.detector().modules()[lit.module].id;
+  result.measured_charge = lit.charge / data.repeats();
+  result.begin = 25 * std::floor((lit.times.front() - 60) / 25);
+  double seen = 0, last = lit.times.back();  // until nearly all charge has come
+  for (std::size_t i = 0; i < lit.times.size() && seen < 0.97 * lit.charge; ++i)
+    seen += lit.charges[i], last = lit.times[i];
+  while ((last - result.begin) / result.step > double(most_bins)) result.step *= 2;
+  const auto n = static_cast<std::size_t>((last - result.begin) / result.step) + 4;
+  result.measured.assign(n, 0);
+  result.expected.assign(n, 0);
+  const auto add = [&](std::vector<double>& bins, double time, double charge) {
+    const double place = std::floor((time - result.begin) / result.step);
+    if (place >= 0 && place < double(n)) bins[static_cast<std::size_t>(place)] += charge;
+  };
+  for (std::size_t i = 0; i < lit.times.size(); ++i)
+    add(result.measured, lit.times[i], lit.charges[i] / data.repeats());
+  for (const LightSample& sample : evaluation.samples) {
+    const double weight = 1 / (sample.repeats * double(evaluation.samples.size()));
+    result.expected_charge += weight * double(sample.count(lit.module));
+    for (const float* time = sample.begin(lit.module); time != sample.end(lit.module); ++time)
+      add(result.expected, *time + vertex_time, weight);
+  }
+  return result;
+}
+
+void measure_goodness(const Evaluation& evaluation, const FitOptions& options, CascadeFit& fit) {
+  fit.neg_llh = evaluation.mean_neg_llh();
+  fit.neg_llh_error = evaluation.error();
+  const PseudoLikelihood pseudo = draw_pseudo_data(evaluation.mean, options.model_error, options.seed);
+  fit.ndof = 2 * pseudo.mean - 7;
+  fit.p_value = 0.5 * std::erfc((fit.neg_llh - 0.5 * fit.ndof) / (pseudo.spread * std::sqrt(2.0)));
+}
+
+void judge(const Search::End& end, const EventData& data, const TrackTest& track, CascadeFit& fit) {
+  const double outside = InstrumentedVolume(data.detector()).distance_outside(fit.cascade.position);
+  if (!end.converged) {
+    fit.status = FitStatus::no_convergence;
+    fit.reason = "no convergence after " + std::to_string(fit.rounds.size()) + " rounds: " + end.trouble;
+  } else if (outside > outside_by) {
+    fit.status = FitStatus::outside;
+    fit.reason =
+        "the vertex is " + std::to_string(std::lround(outside)) + " m outside the instrumented volume";
+  } else if (track.track_like) {
+    fit.status = FitStatus::track_like;
+    fit.reason = "the event looks like a track, the fit as a cascade may mean little: " + track.words();
+  } else {
+    fit.status = FitStatus::ok;
+  }
+}
+
+void find_result(ExpectationModel& light, const EventData& data, const FitOptions& options, CascadeFit& fit,
+                 const Progress& progress) {
+  const MeanIce ice(*light.model().ice);
+  const PointSeed point = find_point(data, ice);
+  const TrackTest track = test_for_track(data, point);
+  Search search(light, data, ice, options, fit, progress);
+  const Search::End end = options.start ? search.from(*options.start) : search.from_scratch(point);
+
+  fit.cascade = cascade_of(end.light, options.kind);
+  const Matrix7 jacobian = LocalFrame(end.light).jacobian(Vector7::Zero(), options.kind);
+  const Eigen::FullPivLU<Matrix7> information(end.information);
+  if (information.isInvertible()) fit.covariance = jacobian * information.inverse() * jacobian.transpose();
+
+  if (progress) progress(0.92, "measuring the fit");
+  const double photons = search.useful_photons(fit.cascade, 3, 4e6, 1.2e7);
+  const Evaluation evaluation =
+      evaluate_cascade(light, data, fit.cascade, photons, options.oversize, evaluations, evaluation_stream,
+                       options.model_error, options.noise_rate);
+  for (const LightSample& sample : evaluation.samples) ++fit.simulations, fit.photons += sample.propagated;
+  measure_goodness(evaluation, options, fit);
+  for (const std::size_t i : data.brightest(pictured_modules))
+    fit.arrival_times.push_back(arrival_times(data, data.lit()[i], evaluation, fit.cascade.time));
+  judge(end, data, track, fit);
+}
+
+}  // namespace
+
+std::string name_of(FitStatus status) {
+  switch (status) {
+    case FitStatus::ok:
+      return "ok";
+    case FitStatus::track_like:
+      return "track_like";
+    case FitStatus::outside:
+      return "outside";
+    case FitStatus::no_convergence:
+      return "no_convergence";
+    case FitStatus::not_enough_light:
+      return "not_enough_light";
+  }
+  return "";
+}
+
+Matrix7 CascadeFit::covariance_in_degrees() const {
+  Vector7 unit = Vector7::Ones();
+  unit(4) = unit(5) = 1 / degree;
+  return unit.asDiagonal() * covariance * unit.asDiagonal();
+}
+
+CascadeFit fit_cascade(const Model& model, const Event& event, const FitOptions& options,
+                       const Progress& progress) {
+  check(options);
+  const EventData data(*model.detector, event);
+  SimulatedLight light(model, options.kind, options.seed, options.threads);
+  return fit_cascade(light, data, options, progress);
+}
+
+CascadeFit fit_cascade(ExpectationModel& light, const EventData& data, const FitOptions& options,
+                       const Progress& progress) {
+  check(options);
+  const auto start = std::chrono::steady_clock::now();
+  CascadeFit fit;
+  fit.kind = options.kind;
+  fit.ice_name = light.model().ice->name();
+  fit.ice_hash = light.model().ice->hash();
+  fit.bins = data.bins();
+  try {
+    data.require_enough_light();
+    find_result(light, data, options, fit, progress);
+  } catch (const NoResult& none) {
+    fit.status = FitStatus::not_enough_light;
+    fit.reason = none.what();
+  }
+  fit.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (progress) progress(1, "done");
+  return fit;
+}
+
+std::string describe(const CascadeFit& fit) {
+  std::string text = name_of(fit.status) + (fit.reason.empty() ? "" : ": " + fit.reason) + "\n";
+  if (fit.status == FitStatus::not_enough_light) return text;
+  const Matrix7 covariance = fit.covariance_in_degrees();
+  Vector7 value = to_vector(fit.cascade);
+  value(4) /= degree;
+  value(5) /= degree;
+  const char* names[] = {"x", "y", "z", "time", "zenith", "azimuth", "energy"};
+  const char* units[] = {"m", "m", "m", "ns", "deg", "deg", "GeV"};
+  for (int i = 0; i < 7; ++i) {
+    char line[120];
+    std::snprintf(line, sizeof line, "  %-8s %10.*f +- %.*f %s\n", names[i], i == 6 ? 0 : 2, value(i),
+                  i == 6 ? 0 : 2, std::sqrt(covariance(i, i)), units[i]);
+    text += line;
+  }
+  char line[200];
+  std::snprintf(line, sizeof line,
+                "  -ln L %.1f +- %.1f (pseudo-data: %.1f), p = %.3g; %zu simulations, %.3g photons, %.0f s\n",
+                fit.neg_llh, fit.neg_llh_error, 0.5 * fit.ndof, fit.p_value,
+                static_cast<std::size_t>(fit.simulations), double(fit.photons), fit.seconds);
+  return text + line;
+}
+
+}  // namespace floe

@@ -1,0 +1,83 @@
+// The expected light of cascades near a point, learnt from a few simulations around it: what lets a
+// fit of seven parameters work with some dozens of simulations. Theory: docs/theory/direct_fit.md.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "reco/direct_fit/arrival_profile.h"
+#include "reco/direct_fit/expectation_model.h"
+#include "reco/direct_fit/local_frame.h"
+#include "reco/direct_fit/point_light.h"
+#include "reco/direct_fit/poisson_regression.h"
+#include "reco/event_data.h"
+
+namespace floe {
+
+struct EmulatorSettings {
+  CascadeKind kind = CascadeKind::electron;
+  double model_error = 0.1;
+  double noise_rate = 0;        // of one module [1/s]
+  double position_step = 10;    // size of the design around the origin [m]
+  double direction_step = 0.2;  // [rad]
+  int threads = 0;
+};
+
+// For every bin (module x Bayesian block) the expectation at local parameters p (see LocalFrame) is
+//   mu(p) = point light(p) exp(log light + c_0 + c . p_1..5) P(tau) / P(0) + noise,
+// with c from a Poisson regression over all simulations, dim bins drawn towards their module and dim
+// modules towards the point light, and P(tau) the share of the module's light in the bin when it arrives
+// later by tau = p_6 + slowness x (change of distance), from the simulations' arrival times together.
+class Emulator {
+ public:
+  struct Evaluation {
+    double log_mean;                       // ln(expected counts of one event)
+    Eigen::Matrix<double, 7, 1> gradient;  // of log_mean with respect to p
+  };
+  struct Bin {
+    double data = 0;              // counts in all repetitions together
+    double effective_counts = 0;  // the simulation's size: 1 / variance of ln mu
+  };
+
+  // `samples`: at least one, near `origin`. `data` must outlive the emulator.
+  Emulator(const EventData& data, const MeanIce& ice, const LightCentre& origin,
+           std::span<const LightSample* const> samples, const EmulatorSettings& settings);
+
+  const LocalFrame& frame() const { return frame_; }
+  const EmulatorSettings& settings() const { return settings_; }
+  double repeats() const { return data_->repeats(); }
+  std::span<const Bin> bins() const { return bins_; }
+
+  // All bins' expectations at p, in the order of bins().
+  void evaluate(const Vector7& p, std::vector<Evaluation>& result) const;
+  // -ln L of the data at p.
+  double neg_llh(const Vector7& p) const;
+  // Expected Fisher information at p, with the simulation's noise and the model error.
+  Matrix7 information(const Vector7& p) const;
+
+ private:
+  struct ModuleModel {
+    Vec3 position;
+    IceLengths ice;       // between origin and module
+    double distance = 0;  // soft, from the origin
+    std::size_t first_bin = 0, bin_count = 1;
+    ArrivalProfile profile;     // of time after the direct light; unused with one bin
+    std::vector<double> edges;  // inner, of the bins, in that time at p = 0
+  };
+  struct SampleView;
+
+  void build_module(ModuleModel& module, std::uint32_t index, const ModuleData* data,
+                    std::span<const SampleView> samples, std::span<const double> log_ratio);
+  void evaluate_module(const ModuleModel& module, const Vector7& p, const Vec3& centre,
+                       std::vector<Evaluation>& result) const;
+  double noise_counts(const ModuleModel& module, std::size_t bin) const;
+
+  const EventData* data_;
+  LocalFrame frame_;
+  EmulatorSettings settings_;
+  std::vector<ModuleModel> modules_;
+  std::vector<Bin> bins_;
+  std::vector<Coefficients> coefficients_;  // of each bin
+};
+
+}  // namespace floe

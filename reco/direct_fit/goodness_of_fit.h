@@ -1,0 +1,42 @@
+// How good a fit is: its likelihood against that of data drawn from the fit itself.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "reco/direct_fit/expectation_model.h"
+#include "reco/event_data.h"
+#include "reco/likelihood/limited_simulation.h"
+
+namespace floe {
+
+// Counts of all bins of `data`, and of the sample in them when the vertex time is `time`. The order is that
+// of Emulator::bins(). `noise_rate` of one module [1/s] adds to the simulation.
+std::vector<BinCounts> count_bins(const EventData& data, const LightSample& sample, double time,
+                                  double noise_rate = 0);
+double neg_llh(std::span<const BinCounts> bins, double model_error);
+
+// A cascade measured with independent simulations of itself.
+struct Evaluation {
+  std::vector<LightSample> samples;
+  std::vector<double> neg_llh;  // of each
+  std::vector<BinCounts> mean;  // counts of an average simulation
+
+  double mean_neg_llh() const;
+  double error() const;  // of the mean, from the spread
+};
+// `photons` for each of `repeats` simulations; streams begin at `stream`.
+Evaluation evaluate_cascade(ExpectationModel& light, const EventData& data, const CascadeParameters& cascade,
+                            double photons, double oversize, int repeats, std::uint64_t stream,
+                            double model_error, double noise_rate);
+
+struct PseudoLikelihood {
+  double mean = 0, spread = 0;
+};
+// Draws data and simulations from the simulated rates: the simulation Poisson, the data Poisson about a
+// rate with the log-normal model error. Small counts are then treated as what they are, where chi-square
+// theory fails.
+PseudoLikelihood draw_pseudo_data(std::span<const BinCounts> bins, double model_error, std::uint64_t seed,
+                                  int draws = 100);
+
+}  // namespace floe

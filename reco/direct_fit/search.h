@@ -1,0 +1,72 @@
+// The direct fit's way through parameter space: rounds of simulation, emulation and a local fit.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "reco/direct_fit/cascade_fit.h"
+#include "reco/direct_fit/expectation_model.h"
+#include "reco/direct_fit/local_fit.h"
+#include "reco/direct_fit/point_light.h"
+#include "reco/direct_fit/seed.h"
+#include "reco/event_data.h"
+
+namespace floe {
+
+// What a round simulates: a simplex design of these steps around the best point so far.
+struct Stage {
+  double position_step = 0;   // [m]
+  double direction_step = 0;  // [rad]
+  double oversize = 5;
+  double photons = 0;  // of all simulations of the round
+};
+
+class Search {
+ public:
+  // All references must outlive the search. Counts what it costs into `result`.
+  Search(ExpectationModel& light, const EventData& data, const MeanIce& ice, const FitOptions& options,
+         CascadeFit& result, const Progress& progress);
+
+  // Where the search ends. Coarse rounds far apart and with wide modules, fine ones at the wanted oversize;
+  // earlier simulations near by are used again. Ends when two fine rounds are done and the last step was
+  // less than its error in every parameter.
+  struct End {
+    LightCentre light;
+    Matrix7 information;  // of the last round's local numbers, around `light`
+    bool converged = false;
+    std::string trouble;  // in words, when it did not
+  };
+  End from_scratch(const PointSeed& point);
+  End from(const CascadeParameters& start);
+
+  // Photons of a simulation in which the event is about as bright as in the data.
+  double useful_photons(const CascadeParameters& cascade, double events, double least, double most);
+
+ private:
+  struct RoundEnd {
+    LightCentre light;
+    LocalFit fit;
+    Vector7 errors;
+    double pull;  // largest step in units of its error
+    bool within;  // inside the region that the emulator is trusted with
+  };
+  RoundEnd round(const LightCentre& origin, const Stage& stage);
+  void simulate(const LocalFrame& frame, const Stage& stage);
+  std::vector<const LightSample*> near(const LocalFrame& frame, const Stage& stage) const;
+  RoundEnd settle(LightCentre origin, Stage stage, int most);
+  End refine(const LightCentre& light);
+  LightCentre best_of_two(const std::vector<SeedCandidate>& candidates);
+  void report(double within_round, const std::string& what);
+
+  ExpectationModel& light_;
+  const EventData& data_;
+  const MeanIce& ice_;
+  const FitOptions& options_;
+  CascadeFit& result_;
+  const Progress& progress_;
+  std::vector<std::unique_ptr<LightSample>> samples_;
+  std::uint64_t stream_ = 0, draws_ = 0;
+};
+
+}  // namespace floe
