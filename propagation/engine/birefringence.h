@@ -6,13 +6,6 @@
 
 namespace floe {
 
-// A segment's step in the plane across the photon: widths and mean [rad], x towards the nearer flow
-// direction, y = n cross x.
-template <typename Scalar>
-struct BirefringentStep {
-  Scalar sigma_x, sigma_y, mean_x;
-};
-
 // Brings the plane's point (px, py) onto the sphere by the inverse stereographic projection with
 // tan(theta/2) = p/2: returns the direction's components along x, y and its loss along n (1 - cos).
 template <typename Scalar>
@@ -27,15 +20,17 @@ OnSphere<Scalar> project_onto_sphere(Scalar px, Scalar py) {
   return {scale * hx, scale * hy, scale * q};
 }
 
-// Deflects the direction n and displaces the position r at the end of a segment of length L.
+// Deflects the direction n and displaces the position r at the end of a segment of length L. The step in
+// the plane across the photon has widths sigma_x, sigma_y and mean mean_x [rad], x towards the nearer flow
+// direction, y = n cross x.
 //   direction: Gaussian (sigma_x, sigma_y) around (mean_x, 0), from the two standard normals g1, g2;
 //   position:  mean delta_n L/2 with the direction's own change delta_n, and independently a variance
 //              sigma^2 L^2/12 per axis, from g3, g4.
 // (flow_x, flow_y) is the unit vector of the flow axis in the horizontal plane.
 template <typename Scalar>
-void birefringent_deflection(const BirefringentStep<Scalar>& step, Scalar flow_x, Scalar flow_y, Scalar g1,
-                             Scalar g2, Scalar g3, Scalar g4, Scalar displacement_length, Scalar& nx, Scalar& ny,
-                             Scalar& nz, Scalar& rx, Scalar& ry, Scalar& rz) {
+void birefringent_deflection(Scalar sigma_x, Scalar sigma_y, Scalar mean_x, Scalar flow_x, Scalar flow_y,
+                             Scalar g1, Scalar g2, Scalar g3, Scalar g4, Scalar displacement_length,
+                             Scalar& nx, Scalar& ny, Scalar& nz, Scalar& rx, Scalar& ry, Scalar& rz) {
   // x axis: the part of the nearer flow direction that is across n. Along the flow it has no direction,
   // and the photon's step none either but for its widths: any axis does.
   const Scalar along = flow_x * nx + flow_y * ny;
@@ -49,11 +44,11 @@ void birefringent_deflection(const BirefringentStep<Scalar>& step, Scalar flow_x
   xz = parallel ? Scalar(1) : xz * norm;
   const Scalar yx = ny * xz - nz * xy, yy = nz * xx - nx * xz, yz = nx * xy - ny * xx;
 
-  const Scalar px = step.sigma_x * g1 + step.mean_x, py = step.sigma_y * g2;
+  const Scalar px = sigma_x * g1 + mean_x, py = sigma_y * g2;
 
   constexpr Scalar one_over_root_three = Scalar(0.57735026918962576);
-  const OnSphere<Scalar> chord = project_onto_sphere(px + step.sigma_x * one_over_root_three * g3,
-                                                     py + step.sigma_y * one_over_root_three * g4);
+  const OnSphere<Scalar> chord =
+      project_onto_sphere(px + sigma_x * one_over_root_three * g3, py + sigma_y * one_over_root_three * g4);
   const Scalar half = displacement_length / 2;
   rx += half * (chord.x * xx + chord.y * yx - chord.loss * nx);
   ry += half * (chord.x * xy + chord.y * yy - chord.loss * ny);

@@ -29,7 +29,8 @@ Vector deflect(const Vector& n, Scalar one_minus_cos, Scalar turn) {
   const auto [first, second] = frame_around(n);
   const Scalar sine = std::sqrt(one_minus_cos * (2 - one_minus_cos));
   const Scalar angle = Scalar(2 * pi) * turn;
-  const Vector turned = n + sine * std::cos(angle) * first + sine * std::sin(angle) * second - one_minus_cos * n;
+  const Vector turned =
+      n + sine * std::cos(angle) * first + sine * std::sin(angle) * second - one_minus_cos * n;
   return turned.normalized();
 }
 

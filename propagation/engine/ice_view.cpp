@@ -34,18 +34,7 @@ IceView::IceView(const IceModel& ice)
     k2.push_back(static_cast<float>(layer.k2));
     anisotropic_scattering |= layer.k1 != 0 || layer.k2 != 0;
   }
-  if (birefringent) {
-    const BirefringenceNumbers& numbers = *ice.birefringence();
-    for (int i = 0; i <= birefringence_intervals; ++i) {
-      // The ends themselves have drift 0/0: a place just inside has the limit.
-      const double cosine = std::clamp(static_cast<double>(i) / birefringence_intervals, 1e-6, 1 - 1e-9);
-      const DiffusionStep one_metre = diffusion_step(numbers, cosine);
-      sigma_x.push_back(numbers.diffusion ? static_cast<float>(one_metre.sigma_x) : 0.0f);
-      sigma_y.push_back(numbers.diffusion ? static_cast<float>(one_metre.sigma_y) : 0.0f);
-      const double steep = cosine * std::sqrt(1 - cosine * cosine);
-      drift.push_back(numbers.deflection ? static_cast<float>(one_metre.mean_x / steep) : 0.0f);
-    }
-  }
+  if (birefringent) tabulate_birefringence(*ice.birefringence());
   for (int wavelength = shortest; wavelength <= longest; ++wavelength) {
     // Outside its range the refractive index is continued by the value at the range's end.
     const double inside = std::clamp<double>(wavelength, 250, 700);
@@ -56,8 +45,28 @@ IceView::IceView(const IceModel& ice)
   }
 }
 
+void IceView::tabulate_birefringence(const BirefringenceNumbers& numbers) {
+  const auto fill = [](Table& table, auto function) {
+    // The drift is 0/0 at both ends: a place just inside has the limit.
+    const auto at = [&](int i) {
+      return function(std::clamp(static_cast<double>(i) / birefringence_intervals, 1e-6, 1 - 1e-9));
+    };
+    for (int i = 0; i < birefringence_intervals; ++i) {
+      table.value.push_back(static_cast<float>(at(i)));
+      table.change.push_back(static_cast<float>(at(i + 1) - at(i)));
+    }
+  };
+  const double wide = numbers.diffusion ? 1 : 0, drifts = numbers.deflection ? 1 : 0;
+  fill(sigma_x, [&](double cosine) { return wide * diffusion_step(numbers, cosine).sigma_x; });
+  fill(sigma_y, [&](double cosine) { return wide * diffusion_step(numbers, cosine).sigma_y; });
+  fill(drift, [&](double cosine) {
+    return drifts * diffusion_step(numbers, cosine).mean_x / (cosine * std::sqrt(1 - cosine * cosine));
+  });
+}
+
 IceView::WavelengthFactors IceView::factors(float wavelength) const {
-  const float place = std::clamp(wavelength, static_cast<float>(shortest), static_cast<float>(longest)) - shortest;
+  const float place =
+      std::clamp(wavelength, static_cast<float>(shortest), static_cast<float>(longest)) - shortest;
   const int index = std::min(static_cast<int>(place), longest - shortest - 1);
   const float w = place - static_cast<float>(index);
   const WavelengthFactors &a = factors_[index], &b = factors_[index + 1];

@@ -19,26 +19,34 @@ struct IceView {
   float z_bottom, step, layers_per_metre;
   std::vector<float> scattering_constant, scattering_power, absorption_dust, absorption_thermal;
   std::vector<float> diffusion, deflection;
-  std::vector<float> k1, k2;      // natural logs
-  bool anisotropic_scattering;    // any k not 0
-  float old_absorption_scaling;   // 0: off
+  std::vector<float> k1, k2;     // natural logs
+  bool anisotropic_scattering;   // any k not 0
+  float old_absorption_scaling;  // 0: off
 
   float flow_x, flow_y;
   float absorption_K1, absorption_K2, absorption_Kz;
   ScatteringFunction<float> scattering;
 
-  // Birefringence, per metre at strength 1, linear in |cos eta| over `birefringence_intervals`. The
-  // drift is tabulated without its factor sin eta cos eta, which is steep at both ends.
+  // Birefringence, per metre at strength 1, linear in |cos eta| over `birefringence_intervals`: value at
+  // an interval's start and change to its end. The drift is tabulated without its factor
+  // sin eta cos eta, which is steep at both ends.
   static constexpr int birefringence_intervals = 512;
+  struct Table {
+    std::vector<float> value, change;
+  };
   bool birefringent, displacement;
-  std::vector<float> sigma_x, sigma_y, drift;
+  Table sigma_x, sigma_y, drift;
 
   // A wavelength's factors in the layers' coefficients, and the inverse of the group velocity [ns/m],
   // linear over whole nanometres.
-  struct WavelengthFactors { float scattering_power, absorption_dust, absorption_thermal, slowness; };
+  struct WavelengthFactors {
+    float scattering_power, absorption_dust, absorption_thermal, slowness;
+  };
   WavelengthFactors factors(float wavelength) const;
 
  private:
+  void tabulate_birefringence(const BirefringenceNumbers& numbers);
+
   static constexpr int shortest = 200, longest = 1000;  // [nm]
   std::vector<WavelengthFactors> factors_;
 };

@@ -2,18 +2,18 @@
 // over lanes is meant to become vector code; -fopt-info-vec tells whether it did.
 #include "propagation/engine/lane_steps.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "propagation/engine/anisotropy.h"
 #include "propagation/engine/birefringence.h"
-#include "propagation/engine/turn.h"
+#include "propagation/engine/vector_math.h"
 
 namespace floe {
 
 namespace {
 
 constexpr int N = Lanes::count;
+constexpr float endless = 1e30f;  // longer than any path [m]
 
 inline float draw(Lanes& lanes, int i) {
   return RandomStream::to_uniform(
@@ -42,7 +42,9 @@ void anisotropic_absorption(const IceView& ice, const Lanes& lanes, float* facto
 }
 
 // A direction's z component, kept away from 0 so that distances to layer boundaries stay finite.
-inline float slope_of(float nz) { return std::copysign(std::max(std::fabs(nz), 1e-9f), nz); }
+inline float slope_of(float nz) {
+  return std::copysign(larger(std::fabs(nz), 1e-9f), nz);
+}
 
 }  // namespace
 
@@ -59,11 +61,12 @@ void find_segments(const IceView& ice, Lanes& lanes) {
   const float* diffusion = ice.diffusion.data();
   const float* deflection = ice.deflection.data();
   const int last = ice.last_layer;
+  const float step = ice.step;
 
   const float bottom_of_top = static_cast<float>(last);
 #pragma omp simd
   for (int i = 0; i < N; ++i) {
-    const float inside = std::min(std::max(lanes.height[i], 0.0f), bottom_of_top);
+    const float inside = smaller(larger(lanes.height[i], 0), bottom_of_top);
     lanes.layer[i] = static_cast<std::int32_t>(inside);
   }
   alignas(64) float factor[N];
@@ -80,12 +83,13 @@ void find_segments(const IceView& ice, Lanes& lanes) {
     const float to_scatter = lanes.scattering_depth[i] / scattering;
     const float to_absorb = lanes.absorption_depth[i] / absorption;
     const float slope = slope_of(lanes.nz[i]);
-    const bool up = slope > 0;
-    const float boundary = static_cast<float>(layer + (up ? 1 : 0));
-    const float reach = std::max(0.0f, (boundary - lanes.height[i]) * ice.step / slope);
-    const bool outermost = up ? layer == last : layer == 0;
-    const float to_boundary = outermost ? 1e30f : reach;
-    const float length = std::min(std::min(to_scatter, to_absorb), to_boundary);
+    const int up = slope > 0 ? 1 : 0;
+    const int next = layer + 2 * up - 1;
+    const float boundary = static_cast<float>(layer + up);
+    const float reach = larger(0, (boundary - lanes.height[i]) * step / slope);
+    const float above_bottom = next < 0 ? endless : reach;
+    const float to_boundary = next > last ? endless : above_bottom;
+    const float length = smaller(smaller(to_scatter, to_absorb), to_boundary);
     lanes.length[i] = length;
     lanes.diffusion[i] = length * diffusion[layer];
     lanes.deflection[i] = length * deflection[layer];
@@ -100,16 +104,17 @@ void find_segments(const IceView& ice, Lanes& lanes) {
     if (!crosses[i]) continue;
     const float slope = slope_of(lanes.nz[i]);
     const int next = slope > 0 ? 1 : -1;
-    const float through = ice.step / std::fabs(slope);
+    const float through = step / std::fabs(slope);
     int layer = lanes.layer[i] + next;
     for (;; layer += next) {
-      const float scattering = scattering_constant[layer] + scattering_power[layer] * lanes.scattering_power[i];
+      const float scattering =
+          scattering_constant[layer] + scattering_power[layer] * lanes.scattering_power[i];
       const float absorption = factor[i] * (absorption_dust[layer] * lanes.absorption_dust[i] +
                                             absorption_thermal[layer] * lanes.absorption_thermal[i]);
-      const float to_scatter = std::max(0.0f, lanes.scattering_depth[i]) / scattering;
-      const float to_absorb = std::max(0.0f, lanes.absorption_depth[i]) / absorption;
+      const float to_scatter = larger(0, lanes.scattering_depth[i]) / scattering;
+      const float to_absorb = larger(0, lanes.absorption_depth[i]) / absorption;
       const bool outermost = next > 0 ? layer == last : layer == 0;
-      const float length = std::min({to_scatter, to_absorb, outermost ? 1e30f : through});
+      const float length = smaller(smaller(to_scatter, to_absorb), outermost ? endless : through);
       lanes.length[i] += length;
       lanes.diffusion[i] += length * diffusion[layer];
       lanes.deflection[i] += length * deflection[layer];
@@ -135,9 +140,10 @@ void advance(Lanes& lanes) {
 }
 
 void birefringent_step(const IceView& ice, Lanes& lanes) {
-  const float* sigma_x = ice.sigma_x.data();
-  const float* sigma_y = ice.sigma_y.data();
-  const float* drift = ice.drift.data();
+  const float *sigma_x = ice.sigma_x.value.data(), *sigma_x_change = ice.sigma_x.change.data();
+  const float *sigma_y = ice.sigma_y.value.data(), *sigma_y_change = ice.sigma_y.change.data();
+  const float *drift = ice.drift.value.data(), *drift_change = ice.drift.change.data();
+  const float flow_x = ice.flow_x, flow_y = ice.flow_y;
   const float displaced = ice.displacement ? 1.0f : 0.0f;
 #pragma omp simd
   for (int i = 0; i < N; ++i) {
@@ -146,28 +152,21 @@ void birefringent_step(const IceView& ice, Lanes& lanes) {
     const float radius_34 = std::sqrt(-2 * std::log(draw(lanes, i)));
     const TurnFunctions turn_34 = turn_functions(draw(lanes, i));
 
-    const float cosine = std::min(1.0f, std::fabs(ice.flow_x * lanes.nx[i] + ice.flow_y * lanes.ny[i]));
+    const float cosine = smaller(1, std::fabs(flow_x * lanes.nx[i] + flow_y * lanes.ny[i]));
     const float steep = cosine * std::sqrt(1 - cosine * cosine);
     const float place = cosine * IceView::birefringence_intervals;
-    const int index = std::min(static_cast<int>(place), IceView::birefringence_intervals - 1);
+    const int floor = static_cast<int>(place);
+    const int index = floor < IceView::birefringence_intervals ? floor : IceView::birefringence_intervals - 1;
     const float w = place - static_cast<float>(index);
-    const float width = std::sqrt(std::max(0.0f, lanes.diffusion[i]));
-    const BirefringentStep<float> step{
-        width * (sigma_x[index] + w * (sigma_x[index + 1] - sigma_x[index])),
-        width * (sigma_y[index] + w * (sigma_y[index + 1] - sigma_y[index])),
-        lanes.deflection[i] * steep * (drift[index] + w * (drift[index + 1] - drift[index]))};
+    const float width = std::sqrt(larger(0, lanes.diffusion[i]));
+    const float across_x = width * (sigma_x[index] + w * sigma_x_change[index]);
+    const float across_y = width * (sigma_y[index] + w * sigma_y_change[index]);
+    const float mean_x = lanes.deflection[i] * steep * (drift[index] + w * drift_change[index]);
 
-    float nx = lanes.nx[i], ny = lanes.ny[i], nz = lanes.nz[i];
-    float x = lanes.x[i], y = lanes.y[i], z = lanes.z[i];
-    birefringent_deflection(step, ice.flow_x, ice.flow_y, radius_12 * turn_12.cosine, radius_12 * turn_12.sine,
-                            radius_34 * turn_34.cosine, radius_34 * turn_34.sine, displaced * lanes.length[i], nx,
-                            ny, nz, x, y, z);
-    lanes.nx[i] = nx;
-    lanes.ny[i] = ny;
-    lanes.nz[i] = nz;
-    lanes.x[i] = x;
-    lanes.y[i] = y;
-    lanes.z[i] = z;
+    birefringent_deflection(across_x, across_y, mean_x, flow_x, flow_y, radius_12 * turn_12.cosine,
+                            radius_12 * turn_12.sine, radius_34 * turn_34.cosine, radius_34 * turn_34.sine,
+                            displaced * lanes.length[i], lanes.nx[i], lanes.ny[i], lanes.nz[i], lanes.x[i],
+                            lanes.y[i], lanes.z[i]);
   }
 }
 

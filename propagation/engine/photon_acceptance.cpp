@@ -28,8 +28,7 @@ double PhotonAcceptance::relative_efficiency(const Module& module, double wavele
 }
 
 double PhotonAcceptance::largest_efficiency_at(double wavelength) const {
-  const double high_qe =
-      acceptance_.high_qe ? largest_high_qe_ * (*acceptance_.high_qe)(wavelength) : 0.0;
+  const double high_qe = acceptance_.high_qe ? largest_high_qe_ * (*acceptance_.high_qe)(wavelength) : 0.0;
   return std::max(largest_nominal_, high_qe);
 }
 

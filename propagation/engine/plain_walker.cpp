@@ -58,9 +58,10 @@ class PlainWalker : public PhotonWalker {
   }
 
  private:
-  void walk_one(const EmittedPhoton& born, std::uint64_t id, std::optional<std::size_t> emitter, RandomStream& random,
-                std::vector<SimulatedHit>& hits, WalkerCounts& counts) const {
-    Photon photon{id, born.position.cast<double>(), born.direction.cast<double>(), born.time, born.wavelength, 0};
+  void walk_one(const EmittedPhoton& born, std::uint64_t id, std::optional<std::size_t> emitter,
+                RandomStream& random, std::vector<SimulatedHit>& hits, WalkerCounts& counts) const {
+    Photon photon{id, born.position.cast<double>(), born.direction.cast<double>(), born.time, born.wavelength,
+                  0};
     const double speed = speed_of_light / group_index(photon.wavelength);
     photon.absorption_depth = random.exponential();
     for (bool first = true;; first = false) {
@@ -158,11 +159,10 @@ class PlainWalker : public PhotonWalker {
     const DiffusionStep one_metre = diffusion_step(numbers, std::min(cos_eta, 1.0));
     const double width = numbers.diffusion ? std::sqrt(segment.diffusion) : 0.0;
     const double drift = numbers.deflection ? segment.deflection : 0.0;
-    const BirefringentStep<double> step{width * one_metre.sigma_x, width * one_metre.sigma_y,
-                                        drift * one_metre.mean_x};
     Vec3 &n = photon.direction, &r = photon.position;
-    birefringent_deflection(step, flow_.x(), flow_.y(), g1, g2, g3, g4,
-                            numbers.displacement ? segment.length : 0.0, n.x(), n.y(), n.z(), r.x(), r.y(), r.z());
+    birefringent_deflection(width * one_metre.sigma_x, width * one_metre.sigma_y, drift * one_metre.mean_x,
+                            flow_.x(), flow_.y(), g1, g2, g3, g4, numbers.displacement ? segment.length : 0.0,
+                            n.x(), n.y(), n.z(), r.x(), r.y(), r.z());
   }
 
   void scatter(Photon& photon, int layer, RandomStream& random) const {

@@ -15,7 +15,9 @@ namespace floe {
 class RandomStream {
  public:
   RandomStream(std::uint64_t seed, std::uint64_t source, std::uint64_t photon) {
-    const auto word = [](std::uint64_t value, int shift) { return static_cast<std::uint32_t>(value >> shift); };
+    const auto word = [](std::uint64_t value, int shift) {
+      return static_cast<std::uint32_t>(value >> shift);
+    };
     const r123::Philox4x32 philox;
     const auto drawn = philox({{word(photon, 0), word(photon, 32), word(source, 0), word(source, 32)}},
                               {{word(seed, 0), word(seed, 32)}});
@@ -34,9 +36,7 @@ class RandomStream {
   static constexpr result_type max() { return ~result_type{0}; }
   result_type operator()() { return bits(); }
 
-  std::uint32_t bits() {
-    return next(state_[0], state_[1], state_[2], state_[3]);
-  }
+  std::uint32_t bits() { return next(state_[0], state_[1], state_[2], state_[3]); }
 
   float uniform() { return to_uniform(bits()); }
   float exponential() { return -std::log(uniform()); }

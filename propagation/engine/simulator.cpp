@@ -52,9 +52,11 @@ Simulator::Simulator(const Model& model, double oversize, EngineKind kind)
   if (!(oversize >= 1 && oversize <= 100))
     throw UsageError(fmt::format("the oversize factor must be between 1 and 100, found {}", oversize));
   if (model.ice->tables().configuration.hole_ice.radius > 0)
-    throw UsageError("the hole-ice column of this ice model is not simulated yet; its effect on the angular "
-                     "acceptance is in as.dat. Switch the column off with --without hole-ice");
-  auto walker = kind == EngineKind::plain ? make_plain_walker(model, oversize) : make_vector_walker(model, oversize);
+    throw UsageError(
+        "the hole-ice column of this ice model is not simulated yet; its effect on the angular "
+        "acceptance is in as.dat. Switch the column off with --without hole-ice");
+  auto walker =
+      kind == EngineKind::plain ? make_plain_walker(model, oversize) : make_vector_walker(model, oversize);
   engine_.reset(new Engine{std::move(walker), PhotonAcceptance(*model.detector, model.acceptance)});
 }
 
@@ -97,7 +99,8 @@ SimulationSummary Simulator::run(const Source& source, const SimulationOptions& 
           summary.queries += counts.queries;
           summary.hits += hits.size();
           if (!hits.empty()) sink(hits);
-          if (progress) progress(static_cast<double>(b + 1) / static_cast<double>(batches), "propagating photons");
+          if (progress)
+            progress(static_cast<double>(b + 1) / static_cast<double>(batches), "propagating photons");
         }
       } catch (...) {
         if (!failure) failure = std::current_exception();

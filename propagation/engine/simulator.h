@@ -15,10 +15,10 @@ namespace floe {
 // One detected photon; `module` is an index into Detector::modules().
 struct SimulatedHit {
   std::uint32_t module;
-  float time;        // [ns]
-  float wavelength;  // [nm]
-  Vec3f direction;   // in which the photon travels
-  Vec3f inward;      // from its landing point to the module's centre, nominal size
+  float time;            // [ns]
+  float wavelength;      // [nm]
+  Vec3f direction;       // in which the photon travels
+  Vec3f inward;          // from its landing point to the module's centre, nominal size
   std::uint64_t photon;  // its number in the run; one photon may be seen more than once
 };
 Hit to_hit(const SimulatedHit& hit, const Detector& detector);
@@ -28,17 +28,17 @@ using HitSink = std::function<void(std::span<const SimulatedHit>)>;
 
 struct SimulationOptions {
   std::uint64_t seed = 1;
-  std::uint64_t stream = 0;  // sources with different streams are independent
-  int threads = 0;           // 0: all cores
-  double scale = 1;          // light of this many repetitions of the source
-  bool fixed_number = false; // propagate the expected number, rounded, instead of a Poisson draw
+  std::uint64_t stream = 0;   // sources with different streams are independent
+  int threads = 0;            // 0: all cores
+  double scale = 1;           // light of this many repetitions of the source
+  bool fixed_number = false;  // propagate the expected number, rounded, instead of a Poisson draw
 };
 
 struct SimulationSummary {
   std::uint64_t propagated = 0;  // photons walked
   std::uint64_t hits = 0;
-  std::uint64_t scatters = 0;    // on all paths together
-  std::uint64_t queries = 0;     // questions put to the geometry
+  std::uint64_t scatters = 0;  // on all paths together
+  std::uint64_t queries = 0;   // questions put to the geometry
   double seconds = 0;
 };
 

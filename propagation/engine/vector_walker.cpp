@@ -135,14 +135,16 @@ class VectorWalker : public PhotonWalker {
     for (ModuleCrossing crossing : work.crossings) {
       if (work.source.emitting_module() == crossing.module) {
         const Vec3f centre = model_.detector->modules()[crossing.module].position.cast<float>();
-        if (lanes.scatters[lane] > 0 && cross_module(centre, 1, origin, direction, lanes.length[lane], crossing))
+        if (lanes.scatters[lane] > 0 &&
+            cross_module(centre, 1, origin, direction, lanes.length[lane], crossing))
           return true;
         continue;
       }
       if (acceptance_.accepts(crossing, direction, lanes.wavelength[lane], random)) {
         const float time = lanes.time[lane] + crossing.distance * lanes.slowness[lane];
         const std::uint64_t photon = work.batch.first + static_cast<std::uint64_t>(lanes.number[lane]);
-        work.hits.push_back({crossing.module, time, lanes.wavelength[lane], direction, crossing.inward, photon});
+        work.hits.push_back(
+            {crossing.module, time, lanes.wavelength[lane], direction, crossing.inward, photon});
       }
       if (stops_at_module_) return true;
     }

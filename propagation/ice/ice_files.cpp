@@ -38,6 +38,10 @@ std::optional<std::size_t> first_irregular(const std::vector<double>& depths) {
   return static_cast<std::size_t>(worst - steps.begin()) + 1;
 }
 
+std::string rows_found(const std::vector<TextLine>& lines) {
+  return fmt::format("{} row{}", lines.size(), lines.size() == 1 ? "" : "s");
+}
+
 double read_number(const TextLine& line, std::size_t field, const ice_limits::Range& range) {
   const double value = parse_number(line, field, range.what);
   expect_range(line, value, range.low, range.high, range.what);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -35,6 +36,8 @@ std::size_t kept_points(const TiltMap& map);
 // Index of the first depth that breaks the rule "rising, in uniform steps"; none when all obey.
 std::optional<std::size_t> first_irregular(const std::vector<double>& depths);
 
+// "1 row", "3 rows": what a file held instead of what it should.
+std::string rows_found(const std::vector<TextLine>& lines);
 // A number within its range.
 double read_number(const TextLine& line, std::size_t field, const ice_limits::Range& range);
 // Throws InputError at the line of the first irregular depth; lines and depths run in parallel.

@@ -54,7 +54,7 @@ std::vector<IceLayerRow> read_layers(const fs::path& file) {
 WavelengthDependence read_wavelength_dependence(const fs::path& file) {
   const auto lines = read_text_lines(file);
   if (lines.size() != 4 && lines.size() != 6)
-    throw InputError({file.string()}, fmt::format("{} rows", lines.size()),
+    throw InputError({file.string()}, ice_files::rows_found(lines),
                      "4 rows (alpha, kappa, A, B) or 6 (and D, E), each a value and its uncertainty");
   const std::array ranges{
       limits::alpha,           limits::kappa, limits::thermal_A, limits::thermal_B, limits::dust_coefficient,
@@ -74,7 +74,7 @@ WavelengthDependence read_wavelength_dependence(const fs::path& file) {
 Bubbles read_bubbles(const fs::path& file) {
   const auto lines = read_text_lines(file);
   if (lines.size() != 1)
-    throw InputError({file.string()}, fmt::format("{} rows", lines.size()), "one row: b, d1, d2");
+    throw InputError({file.string()}, ice_files::rows_found(lines), "one row: b, d1, d2");
   expect_fields(lines[0], 3, 3, "b, d1, d2");
   return {read_number(lines[0], 0, limits::bubble_scattering), read_number(lines[0], 1, limits::bubble_depth),
           read_number(lines[0], 2, limits::bubble_depth)};
@@ -83,7 +83,7 @@ Bubbles read_bubbles(const fs::path& file) {
 int read_version(const fs::path& file) {
   const auto lines = read_text_lines(file);
   if (lines.size() != 1)
-    throw InputError({file.string()}, fmt::format("{} rows", lines.size()), "one number: 0, 10 or 20");
+    throw InputError({file.string()}, ice_files::rows_found(lines), "one number: 0, 10 or 20");
   expect_fields(lines[0], 1, 1, "one number: 0, 10 or 20");
   const long version = parse_integer(lines[0], 0, "version of the ice model");
   if (version < 0 || version > 99 || !ice_files::is_supported(static_cast<int>(version)))

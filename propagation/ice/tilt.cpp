@@ -56,8 +56,8 @@ Polygon clipped(const Polygon& polygon, Inside inside) {
   return result;
 }
 
-// The grid's outline in index coordinates (i, j): a rectangle without its two cut corners. Cuts run
-// along the diagonals of cells, so that the outline's corners are grid points.
+// The grid's outline in index coordinates (i, j), counterclockwise: a rectangle without its two cut corners.
+// Cuts run along the diagonals of cells, so that the outline's corners are grid points.
 Polygon outline(const TiltMap& map) {
   const double i = map.first.count - 1, j = map.second.count - 1;
   const Polygon rectangle{{0, 0}, {i, 0}, {i, j}, {0, j}};
@@ -172,17 +172,26 @@ float LayerTilt::lines_shift(float x, float y, float z) const {
   return at_left + share * (at_right - at_left);
 }
 
+// The outline is convex: a place outside has its nearest point inside a side when it lies straight out from
+// that side, and then from no other; otherwise at a corner. (Comparing distances to sides alone would
+// jump near corners, where the distances differ by less than a float can tell.)
 void LayerTilt::move_to_border(float& i, float& j) const {
-  float nearest = std::numeric_limits<float>::infinity(), nearest_i = i, nearest_j = j;
+  float nearest = std::numeric_limits<float>::infinity(), corner_i = i, corner_j = j;
   for (const Edge& edge : border_) {
-    const float share =
-        std::clamp((i - edge.i) * edge.gradient_i + (j - edge.j) * edge.gradient_j, 0.0f, 1.0f);
-    const float ei = edge.i + share * edge.along_i, ej = edge.j + share * edge.along_j;
+    const float from_i = i - edge.i, from_j = j - edge.j;
+    if (edge.along_j * from_i - edge.along_i * from_j <= 0) continue;  // on the inner side
+    const float share = from_i * edge.gradient_i + from_j * edge.gradient_j;
+    const float clamped = std::clamp(share, 0.0f, 1.0f);
+    const float ei = edge.i + clamped * edge.along_i, ej = edge.j + clamped * edge.along_j;
+    if (share == clamped) {
+      i = ei, j = ej;
+      return;
+    }
     const float di = i - ei, dj = j - ej;
     const float distance = metric_[0] * di * di + 2 * metric_[1] * di * dj + metric_[2] * dj * dj;
-    if (distance < nearest) nearest = distance, nearest_i = ei, nearest_j = ej;
+    if (distance < nearest) nearest = distance, corner_i = ei, corner_j = ej;
   }
-  i = nearest_i, j = nearest_j;
+  i = corner_i, j = corner_j;
 }
 
 float LayerTilt::map_shift(float x, float y, float z) const {

@@ -30,8 +30,8 @@ class LayerTilt {
     int index;
     float height;
   };
-  // A side of the grid's outline, in index coordinates; `gradient` gives the share of the side at which the
-  // nearest point to a place lies.
+  // A side of the grid's outline (counterclockwise), in index coordinates; `gradient` gives the share of the
+  // side at which the nearest point to a place lies.
   struct Edge {
     float i, j, along_i, along_j, gradient_i, gradient_j;
   };

@@ -21,8 +21,7 @@ struct ShiftTable {
 // Rows of a depth and `columns` shifts.
 ShiftTable read_shifts(const fs::path& file, std::size_t columns, std::string_view counted_in) {
   const auto lines = read_text_lines(file);
-  if (lines.size() < 2)
-    throw InputError({file.string()}, fmt::format("{} rows", lines.size()), "at least 2 depths");
+  if (lines.size() < 2) throw InputError({file.string()}, rows_found(lines), "at least 2 depths");
   ShiftTable table;
   const std::string layout =
       fmt::format("a depth and {} layer shifts, as many as {} has places", columns, counted_in);
@@ -57,8 +56,7 @@ TiltMap::Axis read_axis(const TextLine& line) {
 TiltLines read_tilt_lines(const fs::path& par, const fs::path& dat) {
   const auto lines = read_text_lines(par);
   if (lines.size() < 2)
-    throw InputError({par.string()}, fmt::format("{} rows", lines.size()),
-                     "at least 2 rows of string and distance [m]");
+    throw InputError({par.string()}, rows_found(lines), "at least 2 rows of string and distance [m]");
   TiltLines tilt;
   for (const auto& line : lines) {
     expect_fields(line, 2, 2, "string, distance along 225 deg [m]");
@@ -78,8 +76,7 @@ TiltLines read_tilt_lines(const fs::path& par, const fs::path& dat) {
 
 TiltMap read_tilt_map(const fs::path& set, const fs::path& map) {
   const auto lines = read_text_lines(set);
-  if (lines.size() != 2)
-    throw InputError({set.string()}, fmt::format("{} rows", lines.size()), "2 rows, one a grid axis");
+  if (lines.size() != 2) throw InputError({set.string()}, rows_found(lines), "2 rows, one a grid axis");
   TiltMap tilt{read_axis(lines[0]), read_axis(lines[1]), {}, {}};
   if (tilt.first.cut + tilt.second.cut < 3)
     throw InputError(lines[1].where, fmt::format("corner cuts {} and {}", tilt.first.cut, tilt.second.cut),

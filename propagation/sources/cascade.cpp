@@ -19,7 +19,7 @@ namespace {
 constexpr double density_ratio = 0.910 / 0.9216;
 constexpr double radiation_length = 0.39652 * density_ratio;       // [m]
 constexpr double track_length_per_energy = 5.321 * density_ratio;  // of an EM cascade [m/GeV]
-constexpr double muon_mass = 0.105658389;                          // below it the profile is not defined [GeV]
+constexpr double muon_mass = 0.105658389;  // below it the profile is not defined [GeV]
 
 // pi+ of arXiv:1210.5140, the usual stand-in for any hadronic cascade.
 struct HadronNumbers {
@@ -93,7 +93,9 @@ CascadeSource::CascadeSource(const Cascade& cascade, const WavelengthSpectrum& s
   profile_.shape = std::max(profile_.shape, 1e-3);
 }
 
-double CascadeSource::photons() const { return photons_; }
+double CascadeSource::photons() const {
+  return photons_;
+}
 
 EmittedPhoton CascadeSource::emit(RandomStream& random) const {
   EmittedPhoton photon;

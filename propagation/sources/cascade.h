@@ -12,19 +12,23 @@ enum class CascadeKind { electron, positron, gamma, hadron };
 CascadeKind cascade_kind_of(const std::string& name);  // "e-", "e+", "gamma", "hadron"; throws UsageError
 
 struct Cascade {
-  Vec3 position = Vec3::Zero();     // the vertex [m]
-  double time = 0;                  // at the vertex [ns]
-  double zenith = 0, azimuth = 0;   // where it comes FROM [rad]
-  double energy = 0;                // [GeV], > 0
+  Vec3 position = Vec3::Zero();    // the vertex [m]
+  double time = 0;                 // at the vertex [ns]
+  double zenith = 0, azimuth = 0;  // where it comes FROM [rad]
+  double energy = 0;               // [GeV], > 0
   CascadeKind kind = CascadeKind::electron;
 };
 
 // Longitudinal light profile: gamma distribution of shape a and scale b [m] from the vertex.
-struct LongitudinalProfile { double shape, scale; };
+struct LongitudinalProfile {
+  double shape, scale;
+};
 LongitudinalProfile longitudinal_profile(CascadeKind kind, double energy);
 
 // Light of a cascade in metres of bare track: mean, and relative-to-nothing spread [m] (0 for EM).
-struct LightYield { double mean, spread; };
+struct LightYield {
+  double mean, spread;
+};
 LightYield light_yield(CascadeKind kind, double energy);
 
 // Emission point and time: vertex plus l along the axis at t + l/c, l from the profile; direction: the

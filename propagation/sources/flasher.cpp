@@ -49,7 +49,9 @@ WavelengthSpectrum led_line(double nominal_wavelength) {
   return smooth_step_line(nominal_wavelength, nominal_wavelength - 10, nominal_wavelength + 10);
 }
 
-WavelengthSpectrum reference_led_line() { return smooth_step_line(404, 399, 409); }
+WavelengthSpectrum reference_led_line() {
+  return smooth_step_line(404, 399, 409);
+}
 
 FlasherSource::FlasherSource(const Detector& detector, ModuleId module, const FlasherSettings& settings,
                              WavelengthSpectrum spectrum)
@@ -94,8 +96,7 @@ EmittedPhoton PointSource::emit(RandomStream& random) const {
   photon.wavelength = static_cast<float>(spectrum_.sample(random.uniform()));
   photon.position = position_.cast<float>();
   photon.time = static_cast<float>(time_);
-  photon.direction =
-      direction_ ? Vec3f(direction_->normalized().cast<float>()) : isotropic_direction(random);
+  photon.direction = direction_ ? Vec3f(direction_->normalized().cast<float>()) : isotropic_direction(random);
   return photon;
 }
 

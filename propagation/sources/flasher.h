@@ -18,12 +18,12 @@ WavelengthSpectrum reference_led_line();
 inline constexpr double reference_led_share = 0.680;
 
 struct FlasherSettings {
-  double photons = 0;                    // N, acceptance-weighted, before the detector's efficiencies
-  double beam_width = 9.7 * degree;      // sigma of the beam; 0: a pencil
-  double elevation = -0.2 * degree;      // above the horizontal
-  std::optional<double> azimuth;         // of the beam; none: symmetric about the vertical
-  bool isotropic = false;                // emits into all directions alike
-  double time = 0;                       // [ns]
+  double photons = 0;                // N, acceptance-weighted, before the detector's efficiencies
+  double beam_width = 9.7 * degree;  // sigma of the beam; 0: a pencil
+  double elevation = -0.2 * degree;  // above the horizontal
+  std::optional<double> azimuth;     // of the beam; none: symmetric about the vertical
+  bool isotropic = false;            // emits into all directions alike
+  double time = 0;                   // [ns]
 };
 
 // Photons start on the surface of the emitting module, module_radius from its centre in the photon's
