@@ -156,15 +156,15 @@ float LayerTilt::shift(float x, float y, float z) const {
 
 LayerTilt::Row LayerTilt::row_at(float z) const {
   const float height = (z - z_bottom_) * rows_per_metre_;
-  // Beyond the ends the outermost rows continue. Clamped as a float: the height may exceed an int.
-  const float row = std::clamp(std::floor(height), 0.0f, static_cast<float>(rows_ - 1));
-  return {static_cast<int>(row), height - row};
+  // Beyond the ends the outermost rows continue. Clamped before it becomes an integer, which it may exceed.
+  const int row = static_cast<int>(std::clamp(height, 0.0f, static_cast<float>(rows_ - 1)));
+  return {row, height - static_cast<float>(row)};
 }
 
 float LayerTilt::lines_shift(float x, float y, float z) const {
   const float distance = direction_x_ * x + direction_y_ * y - origin_;
-  int right = 1;
-  while (right + 1 < columns_ && distance >= distances_[right]) ++right;
+  int right = 1;  // counted rather than searched for: no branch to mispredict
+  for (int column = 1; column + 1 < columns_; ++column) right += distance >= distances_[column];
   const int left = right - 1;
   const float share = (distance - distances_[left]) / (distances_[right] - distances_[left]);
   const Row row = row_at(z);
