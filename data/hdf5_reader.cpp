@@ -34,6 +34,7 @@ class AttributeReader {
  public:
   AttributeReader(hid_t file, const Location& where) : file_(file), where_(where) {}
 
+  // floe writes text of fixed length; h5py makes text of variable length, which is as good.
   std::string text(const char* name) const {
     const Hdf5Handle attribute = open(name, H5T_STRING, "text");
     const Hdf5Handle type(H5Aget_type(attribute), H5Tclose, "read an attribute");

@@ -110,9 +110,8 @@ Hdf5Handle row_type_in_file(std::span<const Column> columns) {
   return row;
 }
 
-Hdf5Handle text_type() {
-  Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "make a text type");
-  checked(H5Tset_size(type, H5T_VARIABLE), "set the size of a text type");
+Hdf5Handle utf8_type(std::size_t size) {
+  Hdf5Handle type = padded_text_type(size);
   checked(H5Tset_cset(type, H5T_CSET_UTF8), "set the encoding of a text type");
   return type;
 }

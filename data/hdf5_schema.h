@@ -65,8 +65,8 @@ struct Table<HitRow> {
 Hdf5Handle row_type_in_memory(std::span<const Column> columns, std::size_t row_size);
 Hdf5Handle row_type_in_file(std::span<const Column> columns);
 
-// The type of a text attribute: UTF-8 of any length.
-Hdf5Handle text_type();
+// The type of a text attribute: `size` > 0 bytes of UTF-8.
+Hdf5Handle utf8_type(std::size_t size);
 
 HitRow row_of(const Hit& hit);
 Hit hit_of(const HitRow& row);

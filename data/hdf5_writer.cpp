@@ -26,20 +26,18 @@ Hdf5Handle create_file(const std::filesystem::path& path) {
   return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "create the file"};
 }
 
-void write_attribute(hid_t file, const char* name, const std::string& text) {
-  const Hdf5Handle type = text_type();
-  const Hdf5Handle scalar(H5Screate(H5S_SCALAR), H5Sclose, "describe an attribute");
-  const Hdf5Handle attribute(H5Acreate2(file, name, type, scalar, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
-                             "create an attribute");
-  const char* value = text.c_str();
-  checked(H5Awrite(attribute, type, &value), "write an attribute");
-}
-
 void write_attribute(hid_t file, const char* name, hid_t type, const void* value) {
   const Hdf5Handle scalar(H5Screate(H5S_SCALAR), H5Sclose, "describe an attribute");
   const Hdf5Handle attribute(H5Acreate2(file, name, type, scalar, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
                              "create an attribute");
   checked(H5Awrite(attribute, type, value), "write an attribute");
+}
+
+// Text of fixed length stands where HDF5 keeps checksums; text of variable length does not, and damage
+// there crashes the library in whoever reads the file.
+void write_attribute(hid_t file, const char* name, const std::string& text) {
+  const std::string padded = text.empty() ? std::string(1, '\0') : text;
+  write_attribute(file, name, utf8_type(padded.size()), padded.data());
 }
 
 void write_provenance(hid_t file, const Provenance& provenance) {
