@@ -29,7 +29,10 @@ struct ModelRequest {
 };
 
 // Reads and validates. Built-in ice takes the built-in detector and acceptance unless named otherwise.
-// Throws InputError, UsageError.
+// as.dat, wv.dat and wv.rde are those of the ice directory, else of the detector directory; without any of
+// them, the built-in acceptance serves when ice or detector are built in. The overall efficiency is the
+// ice's. Throws InputError (missing or malformed files; modules of high quantum efficiency without wv.rde;
+// neither acceptance), UsageError (unknown effect or version).
 Model load_model(const ModelRequest& request);
 
 // Names that switch_off() takes, in the order in which help lists them: birefringence (its scattering
@@ -37,7 +40,9 @@ Model load_model(const ModelRequest& request);
 // scattering-anisotropy, tilt, hole-ice, cable-shadow, bubbles.
 std::vector<std::string> switchable_effects();
 
-// Switches an effect off in the tables. Throws UsageError naming the known effects otherwise.
+// Switches an effect off in the tables. Throws UsageError naming the known effects, most similar first,
+// otherwise. Parts of birefringence leave its scattering subtraction as it is. The old anisotropy of
+// absorption follows from k1 and k2 of scattering, so that it goes with either of the two anisotropies.
 // "cable-shadow" belongs to the detector and leaves the ice as it is (see load_model).
 void switch_off(IceTables& tables, std::string_view effect);
 
