@@ -72,7 +72,7 @@ std::string unknown_word(const CLI::App& app, bool is_command, const std::string
 
 std::string quoted_command_line(int argc, char** argv) {
   std::string line = "floe";
-  for (int i = 1; i < argc; ++i) line += " " + quoted(argv[i]);
+  for (int i = 1; i < argc; ++i) line.append(" ").append(quoted(argv[i]));
   return line;
 }
 

@@ -213,7 +213,8 @@ void add_compare(CLI::App& floe) {
       app, "--ice-version", 0, 1000, "Read ice directories as this version, whatever they say",
       [options = options.get()](std::int64_t version) { options->ice_version = static_cast<int>(version); });
   add_detector_option(app, options->detector);
-  add_without_option(app, options->without)->description("B is A without these effects");
+  add_without_option(app, options->without)
+      ->description("B is A without these effects; floe info --help lists them");
   app.add_option("-o,--picture", options->picture,
                  "Picture of the data and both fits: arrival times in the brightest modules; of several "
                  "events, FILE-1.svg, FILE-2.svg, ...")

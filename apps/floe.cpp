@@ -3,12 +3,13 @@
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <cstdio>
 #include <exception>
+#include <memory>
 
 #include "apps/command_line.h"
 #include "apps/commands.h"
+#include "apps/help_formatter.h"
 #include "data/base/error.h"
 
 namespace {
@@ -17,7 +18,9 @@ void describe(CLI::App& app) {
   app.name("floe");
   app.set_version_flag("--version", "floe " FLOE_VERSION);
   app.require_subcommand(1);
-  app.get_formatter()->column_width(34);
+  const auto formatter = std::make_shared<floe::HelpFormatter>();
+  formatter->column_width(34);
+  app.formatter(formatter);
   app.footer(
       "Examples:\n"
       "  floe info\n"

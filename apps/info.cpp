@@ -76,14 +76,14 @@ void print_lines(const std::string& title, const std::vector<SummaryLine>& lines
 
 void print_table(const IceModel& ice, const InfoOptions& options) {
   fmt::print(
-      "Ice at {:g} nm (lengths in m; effective scattering of dust, bubbles and crystals together, and "
-      "without the crystals)\n",
+      "Ice at {:g} nm, all in m but the strength of birefringence; scattering lengths are effective: of "
+      "dust, bubbles\nand crystals together, and without the crystals\n",
       options.wavelength);
   TextTable table({"  depth", "z", "scattering", "without crystals", "absorption", "birefringence"});
   for (const DepthRow& row : depth_rows(ice, options.wavelength, options.step))
     table.add({fmt::format("{:7.1f}", row.depth), fmt::format("{:.1f}", origin_depth - row.depth),
-               fmt::format("{:.1f}", row.effective_scattering_length),
-               fmt::format("{:.1f}", row.mie_scattering_length), fmt::format("{:.1f}", row.absorption_length),
+               fmt::format("{:.3g}", row.effective_scattering_length),
+               fmt::format("{:.3g}", row.mie_scattering_length), fmt::format("{:.3g}", row.absorption_length),
                fmt::format("{:.2f}", row.birefringence_strength)});
   fmt::print("{}", table.str());
 }

@@ -55,7 +55,8 @@ std::string scattering_anisotropy(const IceModel& ice) {
   const bool on = std::any_of(ice.layers().begin(), ice.layers().end(),
                               [](const IceLayer& l) { return l.k1 != 0 || l.k2 != 0; });
   if (!on) return "off";
-  return fmt::format("k1 {}, k2 {}", range_over_layers(ice, along), range_over_layers(ice, across));
+  return fmt::format("k1 {}, k2 {}, absorption scaled by {:g}", range_over_layers(ice, along),
+                     range_over_layers(ice, across), ice.old_absorption_scaling());
 }
 
 std::string absorption_anisotropy(const IceModel& ice) {
@@ -111,8 +112,8 @@ std::vector<SummaryLine> ice_lines(const IceModel& ice, bool idealised) {
       {"layers", fmt::format("{} of {:g} m, {:.2f} to {:.2f} m deep (z {:.2f} to {:.2f} m)", count,
                              ice.layer_step(), layer_depth(ice, count - 1) - half, layer_depth(ice, 0) + half,
                              origin_depth - layer_depth(ice, count - 1) + half, ice.z_bottom())},
-      {"wavelengths", fmt::format("alpha {:g}, kappa {:g}, A {:g} /m, B {:g} nm", tables.wavelength.alpha,
-                                  tables.wavelength.kappa, tables.wavelength.A, tables.wavelength.B)},
+      {"wavelength law", fmt::format("alpha {:g}, kappa {:g}, A {:g} /m, B {:g} nm", tables.wavelength.alpha,
+                                     tables.wavelength.kappa, tables.wavelength.A, tables.wavelength.B)},
       {"scattering angle",
        fmt::format("mean cosine {:g}, simplified Liu {:g}, Henyey-Greenstein {:g}", ice.mean_cosine(),
                    ice.simplified_liu_fraction(), 1 - ice.simplified_liu_fraction())},

@@ -224,8 +224,7 @@ void warn_of_darkness(const std::vector<EventResult>& results) {
 
 void print_results(const std::vector<EventResult>& results, const SimulateOptions& options) {
   for (const EventResult& result : results)
-    fmt::print("{}: {} photons propagated, {} hits in {} modules\n", result.id, result.summary.propagated,
-               result.summary.hits, result.modules.size());
+    fmt::print("event {}: {} hits in {} modules\n", result.id, result.summary.hits, result.modules.size());
   const SimulationSummary sum = total(results);
   fmt::print("{}: {} photons propagated, {} hits, {:.2f} s, {:.3g} photons/s\n", options.file, sum.propagated,
              sum.hits, sum.seconds, photons_per_second(sum));
