@@ -16,10 +16,13 @@ struct Hdf5Failure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Keeps HDF5 from printing its own errors while it lives.
+// Keeps HDF5 from printing its own errors while it lives. Made before any other call of the library.
 class Hdf5Silence {
  public:
   Hdf5Silence() {
+    // After some damaged files the library's own tidying up at exit fails, and says so on the terminal.
+    // It is not needed: every handle here has an owner.
+    [[maybe_unused]] static const herr_t no_tidying = H5dont_atexit();
     H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   }

@@ -9,7 +9,8 @@
 namespace floe {
 
 // Collects values in a fixed order; hex() is 32 hexadecimal digits (XXH3, 128 bits). Numbers are
-// hashed by their IEEE-754 bits, whole numbers as 64 bits, strings with their length.
+// hashed by their IEEE-754 bits, whole numbers as 64 bits, strings with their length, each value with a
+// mark of its kind.
 class Hasher {
  public:
   Hasher& add(double value);
