@@ -90,7 +90,7 @@ TEST_F(TextEventsTest, TheReferenceCascadeIsReadWholeAndFast) {
   // than their rounding to 1 mrad explains.
   for (const Hit& hit : result.events[0].hits) ASSERT_GT(hit.direction.dot(hit.inward), -2e-3f);
 #if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__)
-  EXPECT_LT(seconds.count(), 1.0);  // 0.1 s on an idle machine; the rest is for busy ones
+  EXPECT_LT(seconds.count(), 1.0);  // 0.15 s when measured; the rest is for busy machines
 #endif
 }
 
