@@ -1,5 +1,7 @@
 #include <embree3/rtcore.h>
 
+#include <stdexcept>
+
 #include "data/base/constants.h"
 #include "geometry/crossing_order.h"
 #include "geometry/module_scene.h"

@@ -79,7 +79,7 @@ class Clearance : public testing::TestWithParam<double> {
 };
 
 TEST_P(Clearance, IsNeverLargerThanTheTruth) {
-  expect_lower_bound(ic86_detector(), 100'000);
+  expect_lower_bound(ic86_detector(), 40'000);
 }
 
 TEST_P(Clearance, HoldsForCrookedStrings) {
