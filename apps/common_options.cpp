@@ -39,13 +39,17 @@ void add_output_options(CLI::App& app, OutputOptions& options) {
   app.add_flag("--quiet", options.quiet, "Print nothing but warnings and errors");
 }
 
-void add_simulation_options(CLI::App& app, SimulationSettings& settings) {
+void add_run_options(CLI::App& app, SimulationSettings& settings) {
   add_integer(app, "--seed", 0, std::numeric_limits<std::int64_t>::max(),
               "Of the random numbers; the same seed gives the same result",
               [&settings](std::int64_t seed) { settings.seed = static_cast<std::uint64_t>(seed); })
       ->default_str("1");
   add_integer(app, "--threads", 1, 4096, "Cores to use, default all; the result does not depend on it",
               [&settings](std::int64_t threads) { settings.threads = static_cast<int>(threads); });
+}
+
+void add_simulation_options(CLI::App& app, SimulationSettings& settings) {
+  add_run_options(app, settings);
   add_number(app, "--oversize", "X", {1, 100}, "Modules are simulated X times wider, with 1/X^2 of the light",
              settings.oversize);
 }

@@ -28,7 +28,8 @@ struct SimulationSettings {
   int threads = 0;         // --threads; 0: all cores
   double oversize = 5;     // --oversize
 };
-void add_simulation_options(CLI::App& app, SimulationSettings& settings);
+void add_run_options(CLI::App& app, SimulationSettings& settings);         // --seed, --threads
+void add_simulation_options(CLI::App& app, SimulationSettings& settings);  // these and --oversize
 
 // "DIR" or "DIR without birefringence": how a model is called in printouts.
 std::string model_label(const ModelRequest& request);

@@ -26,7 +26,7 @@ void describe(CLI::App& app) {
       "  floe info\n"
       "  floe simulate --cascade 20,-40,-300,70,130,3000 -o event.h5\n"
       "  floe compare event.h5 --without birefringence --picture compare.svg\n"
-      "Exit codes: 0 done, 2 wrong usage, 3 bad input, 4 no result, 5 output could not be written.");
+      "Exit codes: 0 done, 1 disagreement (validate), 2 wrong usage, 3 bad input, 4 no result, 5 output could not be written.");
 }
 
 void add_commands(CLI::App& app, const std::string& command_line) {
@@ -36,6 +36,7 @@ void add_commands(CLI::App& app, const std::string& command_line) {
   floe::add_compare(app);
   floe::add_import(app, command_line);
   floe::add_export(app);
+  floe::add_validate(app);
 }
 
 int run(const std::string& command_line, int argc, char** argv) {

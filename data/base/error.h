@@ -1,6 +1,6 @@
 // Errors as part of the product: what went wrong, where, what was expected, what to do.
 //
-// Every error that a user can cause is one of these four; the command line turns each into its exit
+// Every error that a user can cause is one of these; the command line turns each into its exit
 // code (see ExitCode) and prints what() on stderr. Programming mistakes are asserts, not errors.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace floe {
 
-enum class ExitCode { done = 0, usage = 2, bad_input = 3, no_result = 4, bad_output = 5 };
+enum class ExitCode { done = 0, disagreement = 1, usage = 2, bad_input = 3, no_result = 4, bad_output = 5 };
 
 class Error : public std::runtime_error {
  public:
@@ -43,6 +43,11 @@ struct InputError : Error {
 // Valid input from which no result follows: not enough light, no convergence, event outside.
 struct NoResult : Error {
   explicit NoResult(const std::string& message) : Error(ExitCode::no_result, message) {}
+};
+
+// A comparison that was asked for has found that two things do not agree.
+struct Disagreement : Error {
+  explicit Disagreement(const std::string& message) : Error(ExitCode::disagreement, message) {}
 };
 
 // Output that could not be written.

@@ -12,10 +12,11 @@ namespace floe {
 // How wide a flasher's spectral line is simulated.
 // The LED's line is a smooth step of +-10 nm about the nominal wavelength.
 WavelengthSpectrum led_line(double nominal_wavelength);
-// The middle of the 405 nm line, which came out as 399-409 nm, is what the reference simulations hold;
-// it carries this share of the photons.
+// The middle of the 405 nm line, which came out as 399-409 nm, is what the reference simulations hold. It
+// carries 0.680 of the photons; of these 0.992 are left on a nominal module there, because that program
+// reads its efficiency against wavelength one nanometre beside the line.
 WavelengthSpectrum reference_led_line();
-inline constexpr double reference_led_share = 0.680;
+inline constexpr double reference_led_share = 0.680 * 0.992;
 
 struct FlasherSettings {
   double photons = 0;                // N, acceptance-weighted, before the detector's efficiencies

@@ -23,6 +23,9 @@ struct ReferenceSet {
 };
 std::vector<ReferenceSet> reference_sets();
 
+// Enough light for a test of the whole chain in a minute; not for a verdict on details.
+inline constexpr double quick_share = 0.05;
+
 struct ValidationOptions {
   std::filesystem::path reference;   // folder of the .hits.gz files
   std::filesystem::path ice_models;  // folder of the public ice models
