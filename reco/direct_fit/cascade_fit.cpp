@@ -1,6 +1,5 @@
 #include "reco/direct_fit/cascade_fit.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -64,10 +63,12 @@ ArrivalTimes arrival_times(const EventData& data, const ModuleData& lit, const E
   return result;
 }
 
-void measure_goodness(const Evaluation& evaluation, const FitOptions& options, CascadeFit& fit) {
+void measure_goodness(const EventData& data, const Evaluation& evaluation, const FitOptions& options,
+                      CascadeFit& fit) {
   fit.neg_llh = evaluation.mean_neg_llh();
   fit.neg_llh_error = evaluation.error();
-  const PseudoLikelihood pseudo = draw_pseudo_data(evaluation.mean, options.model_error, options.seed);
+  const PseudoLikelihood pseudo = draw_pseudo_data(data, evaluation, fit.cascade.time, options.model_error,
+                                                   options.seed, options.threads);
   fit.ndof = 2 * pseudo.mean - 7;
   fit.p_value = 0.5 * std::erfc((fit.neg_llh - 0.5 * fit.ndof) / (pseudo.spread * std::sqrt(2.0)));
 }
@@ -99,8 +100,7 @@ void find_result(ExpectationModel& light, const EventData& data, const FitOption
 
   fit.cascade = cascade_of(end.light, options.kind);
   const Matrix7 jacobian = LocalFrame(end.light).jacobian(Vector7::Zero(), options.kind);
-  const Eigen::FullPivLU<Matrix7> information(end.information);
-  if (information.isInvertible()) fit.covariance = jacobian * information.inverse() * jacobian.transpose();
+  fit.covariance = jacobian * covariance_of(end.information) * jacobian.transpose();
 
   if (progress) progress(0.92, "measuring the fit");
   const double photons = search.useful_photons(fit.cascade, 3, 4e6, 1.2e7);
@@ -108,7 +108,7 @@ void find_result(ExpectationModel& light, const EventData& data, const FitOption
       evaluate_cascade(light, data, fit.cascade, photons, options.oversize, evaluations, evaluation_stream,
                        options.model_error, options.noise_rate);
   for (const LightSample& sample : evaluation.samples) ++fit.simulations, fit.photons += sample.propagated;
-  measure_goodness(evaluation, options, fit);
+  measure_goodness(data, evaluation, options, fit);
   for (const std::size_t i : data.brightest(pictured_modules))
     fit.arrival_times.push_back(arrival_times(data, data.lit()[i], evaluation, fit.cascade.time));
   judge(end, data, track, fit);

@@ -5,12 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "reco/direct_fit/arrival_profile.h"
-#include "reco/direct_fit/expectation_model.h"
-#include "reco/direct_fit/local_frame.h"
-#include "reco/direct_fit/point_light.h"
-#include "reco/direct_fit/poisson_regression.h"
-#include "reco/event_data.h"
+#include "reco/direct_fit/emulator_training.h"
 
 namespace floe {
 
@@ -25,9 +20,9 @@ struct EmulatorSettings {
 
 // For every bin (module x Bayesian block) the expectation at local parameters p (see LocalFrame) is
 //   mu(p) = point light(p) exp(log light + c_0 + c . p_1..5) P(tau) / P(0) + noise,
-// with c from a Poisson regression over all simulations, dim bins drawn towards their module and dim
-// modules towards the point light, and P(tau) the share of the module's light in the bin when it arrives
-// later by tau = p_6 + slowness x (change of distance), from the simulations' arrival times together.
+// with c from Poisson regressions over all simulations (see train), and P(tau) the share of the module's
+// light in the bin when it arrives later by tau = p_6 + slowness x (change of distance), from the
+// simulations' arrival times together.
 class Emulator {
  public:
   struct Evaluation {
@@ -56,28 +51,15 @@ class Emulator {
   Matrix7 information(const Vector7& p) const;
 
  private:
-  struct ModuleModel {
-    Vec3 position;
-    IceLengths ice;       // between origin and module
-    double distance = 0;  // soft, from the origin
-    std::size_t first_bin = 0, bin_count = 1;
-    ArrivalProfile profile;     // of time after the direct light; unused with one bin
-    std::vector<double> edges;  // inner, of the bins, in that time at p = 0
-  };
-  struct SampleView;
-
-  void build_module(ModuleModel& module, std::uint32_t index, const ModuleData* data,
-                    std::span<const SampleView> samples, std::span<const double> log_ratio);
-  void evaluate_module(const ModuleModel& module, const Vector7& p, const Vec3& centre,
+  void evaluate_module(const ModuleLight& module, std::size_t first_bin, const Vector7& p, const Vec3& centre,
                        std::vector<Evaluation>& result) const;
-  double noise_counts(const ModuleModel& module, std::size_t bin) const;
+  double noise_counts(const ModuleLight& module, std::size_t bin) const;
 
   const EventData* data_;
   LocalFrame frame_;
   EmulatorSettings settings_;
-  std::vector<ModuleModel> modules_;
+  std::vector<ModuleLight> modules_;
   std::vector<Bin> bins_;
-  std::vector<Coefficients> coefficients_;  // of each bin
 };
 
 }  // namespace floe

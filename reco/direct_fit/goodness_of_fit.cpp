@@ -1,9 +1,13 @@
 #include "reco/direct_fit/goodness_of_fit.h"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <random>
+
+#include "reco/likelihood/bayesian_blocks.h"
 
 namespace floe {
 namespace {
@@ -14,6 +18,86 @@ double width(const EventData& data, const ModuleData& lit, std::size_t bin) {
   const double high = bin < lit.edges.size() ? lit.edges[bin] : data.last_time() + EventData::margin;
   return std::max(0.0, high - low);
 }
+
+// The expected light of one module in cells of time, and draws of what a fit would find in it.
+class PseudoModule {
+ public:
+  PseudoModule(const EventData& data, const ModuleData* lit, std::uint32_t index,
+               const Evaluation& evaluation, double vertex_time)
+      : events_(data.repeats()) {
+    const double begin = data.first_time() - EventData::margin, end = data.last_time() + EventData::margin;
+    const double first = std::floor(begin / cell);
+    // A module that was dark is dim: all times are one cell.
+    const std::size_t cells =
+        lit ? static_cast<std::size_t>(std::max(1.0, std::ceil(end / cell) - first)) : 1;
+    rates_.assign(cells, 0);
+    double repeats = 0;
+    for (const LightSample& sample : evaluation.samples) {
+      repeats += sample.repeats;
+      for (const float* time = sample.begin(index); time != sample.end(index); ++time) {
+        const double place = std::floor((*time + vertex_time) / cell) - first;
+        rates_[static_cast<std::size_t>(std::clamp(place, 0.0, double(cells - 1)))] += 1;
+      }
+    }
+    simulation_events_ = repeats / double(evaluation.samples.size());
+    smooth();
+    const double noise = evaluation.noise_rate * 1e-9 * (end - begin) / double(cells);
+    for (double& rate : rates_) rate = rate / repeats + noise;
+    if (!lit) return;
+    for (const double edge : lit->edges)
+      error_cuts_.push_back(static_cast<std::size_t>(edge / cell - first + 0.5));
+  }
+
+  // -ln L of drawn data against a drawn simulation, in the drawn data's own bins.
+  double draw(double model_error, std::mt19937_64& random) const {
+    std::vector<double> data(rates_.size(), 0), simulation(rates_.size(), 0);
+    std::normal_distribution<double> gauss(0, 1);
+    double error = std::exp(model_error * gauss(random));
+    std::size_t next_cut = 0;
+    for (std::size_t i = 0; i < rates_.size(); ++i) {
+      if (next_cut < error_cuts_.size() && i == error_cuts_[next_cut]) {
+        error = std::exp(model_error * gauss(random));
+        ++next_cut;
+      }
+      data[i] = poisson(rates_[i] * error * events_, random);
+      simulation[i] = poisson(rates_[i] * simulation_events_, random);
+    }
+    std::vector<std::size_t> ends = bayesian_blocks(data);
+    ends.push_back(rates_.size());
+    double value = 0;
+    for (std::size_t b = 0, i = 0; b < ends.size(); ++b) {
+      BinCounts bin{0, events_, 0, simulation_events_};
+      for (; i < ends[b]; ++i) bin.data += data[i], bin.simulation += simulation[i];
+      value += limited_simulation(bin, model_error).value;
+    }
+    return value;
+  }
+
+ private:
+  static constexpr double cell = block_cell;
+
+  static double poisson(double mean, std::mt19937_64& random) {
+    return mean > 0 ? double(std::poisson_distribution<long>(mean)(random)) : 0;
+  }
+
+  // The simulation's own blocks: counts spread evenly inside, or else its fluctuations would pass for light.
+  void smooth() {
+    std::vector<std::size_t> ends = bayesian_blocks(rates_);
+    ends.push_back(rates_.size());
+    std::size_t begin = 0;
+    for (const std::size_t end : ends) {
+      const auto from = rates_.begin() + static_cast<std::ptrdiff_t>(begin);
+      const auto to = rates_.begin() + static_cast<std::ptrdiff_t>(end);
+      std::fill(from, to, std::accumulate(from, to, 0.0) / double(end - begin));
+      begin = end;
+    }
+  }
+
+  double events_, simulation_events_ = 1;
+  std::vector<double> rates_;  // counts of one event in each cell
+  std::vector<std::size_t>
+      error_cuts_;  // cells at which another model error begins: the measured data's bins
+};
 
 }  // namespace
 
@@ -60,37 +144,34 @@ Evaluation evaluate_cascade(ExpectationModel& light, const EventData& data, cons
                             double photons, double oversize, int repeats, std::uint64_t stream,
                             double model_error, double noise_rate) {
   Evaluation result;
+  result.noise_rate = noise_rate;
   for (int i = 0; i < repeats; ++i) {
     result.samples.push_back(
         light.sample({cascade, photons, oversize, stream + static_cast<std::uint64_t>(i)}));
     const std::vector<BinCounts> bins = count_bins(data, result.samples.back(), cascade.time, noise_rate);
     result.neg_llh.push_back(floe::neg_llh(bins, model_error));
-    if (i == 0) result.mean.resize(bins.size(), {0, data.repeats(), 0, 0});
-    for (std::size_t b = 0; b < bins.size(); ++b) {
-      result.mean[b].data = bins[b].data;
-      result.mean[b].simulation += bins[b].simulation / repeats;
-      result.mean[b].simulation_events += bins[b].simulation_events / repeats;
-    }
   }
   return result;
 }
 
-PseudoLikelihood draw_pseudo_data(std::span<const BinCounts> bins, double model_error, std::uint64_t seed,
-                                  int draws) {
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> gauss(0, model_error);
+PseudoLikelihood draw_pseudo_data(const EventData& data, const Evaluation& evaluation, double vertex_time,
+                                  double model_error, std::uint64_t seed, int threads, int draws) {
+  const auto n = static_cast<std::size_t>(draws);
+  const std::size_t modules = data.lit().size() + data.dark().size();
+  std::vector<std::vector<double>> values(modules);
+#pragma omp parallel for schedule(dynamic, 16) num_threads(threads > 0 ? threads : omp_get_max_threads())
+  for (std::size_t i = 0; i < modules; ++i) {
+    const ModuleData* lit = i < data.lit().size() ? &data.lit()[i] : nullptr;
+    const std::uint32_t index = lit ? lit->module : data.dark()[i - data.lit().size()];
+    std::seed_seq numbers{seed, std::uint64_t{index}};
+    std::mt19937_64 random(numbers);
+    const PseudoModule module(data, lit, index, evaluation, vertex_time);
+    for (std::size_t k = 0; k < n; ++k) values[i].push_back(module.draw(model_error, random));
+  }
   double sum = 0, square = 0;
-  for (int i = 0; i < draws; ++i) {
+  for (std::size_t k = 0; k < n; ++k) {
     double value = 0;
-    for (const BinCounts& bin : bins) {
-      if (bin.simulation <= 0) continue;
-      const double rate = bin.simulation / bin.simulation_events;
-      const double error = model_error > 0 ? gauss(random) : 0;
-      BinCounts drawn = bin;
-      drawn.simulation = double(std::poisson_distribution<long>(bin.simulation)(random));
-      drawn.data = double(std::poisson_distribution<long>(rate * std::exp(error) * bin.data_events)(random));
-      value += limited_simulation(drawn, model_error).value;
-    }
+    for (const auto& module : values) value += module[k];
     sum += value;
     square += value * value;
   }

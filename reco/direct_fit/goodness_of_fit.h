@@ -20,7 +20,7 @@ double neg_llh(std::span<const BinCounts> bins, double model_error);
 struct Evaluation {
   std::vector<LightSample> samples;
   std::vector<double> neg_llh;  // of each
-  std::vector<BinCounts> mean;  // counts of an average simulation
+  double noise_rate = 0;        // of a module [1/s]
 
   double mean_neg_llh() const;
   double error() const;  // of the mean, from the spread
@@ -33,10 +33,11 @@ Evaluation evaluate_cascade(ExpectationModel& light, const EventData& data, cons
 struct PseudoLikelihood {
   double mean = 0, spread = 0;
 };
-// Draws data and simulations from the simulated rates: the simulation Poisson, the data Poisson about a
-// rate with the log-normal model error. Small counts are then treated as what they are, where chi-square
-// theory fails.
-PseudoLikelihood draw_pseudo_data(std::span<const BinCounts> bins, double model_error, std::uint64_t seed,
-                                  int draws = 100);
+// What evaluate_cascade would find for events that are as the cascade simulated in `evaluation`, with the
+// log-normal model error in every bin: draws data and simulations, and bins the data by their own Bayesian
+// blocks as was done with the measured ones, since bins that follow fluctuations see more of them. Small
+// counts are treated as what they are, where chi-square theory fails. `vertex_time` is that of the fit.
+PseudoLikelihood draw_pseudo_data(const EventData& data, const Evaluation& evaluation, double vertex_time,
+                                  double model_error, std::uint64_t seed, int threads, int draws = 30);
 
 }  // namespace floe

@@ -2,7 +2,9 @@
 
 #include <ceres/ceres.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
+#include <limits>
 
 #include "reco/likelihood/limited_simulation.h"
 
@@ -53,6 +55,17 @@ Vector7 trust_region(const EmulatorSettings& settings) {
       Eigen::Vector2d::Constant(1.5 * settings.direction_step),
       20 + 2 * light_slowness() * settings.position_step, 1.5;
   return size;
+}
+
+Matrix7 covariance_of(const Matrix7& information) {
+  // Metres, radians and nanoseconds differ by orders of magnitude: judge the correlation matrix.
+  const Vector7 scale = information.diagonal().cwiseMax(0).cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Matrix7> solver(scale.asDiagonal() * information * scale.asDiagonal());
+  if (!scale.allFinite() || solver.info() != Eigen::Success || solver.eigenvalues().minCoeff() < 1e-8)
+    return Matrix7::Constant(std::numeric_limits<double>::infinity());
+  const Matrix7 inverse = solver.eigenvectors() * solver.eigenvalues().cwiseInverse().asDiagonal() *
+                          solver.eigenvectors().transpose();
+  return scale.asDiagonal() * inverse * scale.asDiagonal();
 }
 
 LocalFit fit_locally(const Emulator& emulator) {

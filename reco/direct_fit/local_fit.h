@@ -23,6 +23,9 @@ std::unique_ptr<ceres::CostFunction> make_cost(const Emulator& emulator);
 // Largest change of the parameters that an emulator is trusted with.
 Vector7 trust_region(const EmulatorSettings& settings);
 
+// Inverse of the information; infinite where it says nothing about a combination of the parameters.
+Matrix7 covariance_of(const Matrix7& information);
+
 LocalFit fit_locally(const Emulator& emulator);
 
 }  // namespace floe

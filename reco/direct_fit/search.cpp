@@ -1,10 +1,8 @@
 #include "reco/direct_fit/search.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <memory>
 
 #include "reco/direct_fit/design.h"
@@ -24,13 +22,6 @@ std::string words(const CascadeParameters& c) {
                 c.position.x(), c.position.y(), c.position.z(), c.zenith / degree, c.azimuth / degree,
                 c.energy);
   return text;
-}
-
-// Square roots of the diagonal of the inverse; infinite where the information says nothing.
-Vector7 errors_of(const Matrix7& information) {
-  const Eigen::FullPivLU<Matrix7> factor(information);
-  if (!factor.isInvertible()) return Vector7::Constant(std::numeric_limits<double>::infinity());
-  return factor.inverse().diagonal().cwiseMax(0).cwiseSqrt();
 }
 
 }  // namespace
@@ -91,7 +82,7 @@ Search::RoundEnd Search::round(const LightCentre& origin, const Stage& stage) {
   RoundEnd end;
   end.fit = fit_locally(emulator);
   end.light = frame.at(end.fit.step);
-  end.errors = errors_of(end.fit.information);
+  end.errors = covariance_of(end.fit.information).diagonal().cwiseSqrt();
   end.pull = end.fit.step.cwiseAbs().cwiseQuotient(end.errors).maxCoeff();
   end.within = (end.fit.step.cwiseAbs().array() < 0.98 * trust_region(settings).array()).all();
   result_.rounds.push_back({cascade_of(end.light, options_.kind), end.fit.neg_llh, stage.position_step,

@@ -15,11 +15,14 @@ namespace floe {
 // Needs counts >= 0 and 0 < p < 1. Time goes with the square of the cells that hold counts.
 std::vector<std::size_t> bayesian_blocks(std::span<const double> counts, double false_cut = 0.05);
 
+// Width of the cells that blocks of arrival times are made of [ns].
+inline constexpr double block_cell = 25;
+
 // Inner bin edges [ns], rising, of one module: its blocks over cells of `cell` ns aligned to multiples of
 // `cell`, over [begin, end]. The first bin reaches back to -infinity and the last to infinity, so that
 // light where there are no data counts too. Times outside [begin, end] are counted in the outermost
 // cells. `times` and `charges` are of equal length.
 std::vector<double> block_edges(std::span<const double> times, std::span<const double> charges, double begin,
-                                double end, double cell = 25);
+                                double end, double cell = block_cell);
 
 }  // namespace floe
