@@ -4,6 +4,7 @@
 
 #include "data/base/constants.h"
 #include "data/base/error.h"
+#include "geometry/clearance_map.h"
 #include "geometry/module_scene.h"
 
 namespace floe {
