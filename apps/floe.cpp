@@ -26,7 +26,8 @@ void describe(CLI::App& app) {
       "  floe info\n"
       "  floe simulate --cascade 20,-40,-300,70,130,3000 -o event.h5\n"
       "  floe compare event.h5 --without birefringence --picture compare.svg\n"
-      "Exit codes: 0 done, 1 disagreement (validate), 2 wrong usage, 3 bad input, 4 no result, 5 output could not be written.");
+      "Exit codes: 0 done, 1 disagreement (validate), 2 wrong usage, 3 bad input, 4 no result, 5 output "
+      "could not be written.");
 }
 
 void add_commands(CLI::App& app, const std::string& command_line) {
@@ -63,6 +64,10 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "floe: error: {}\n", error.what());
     return static_cast<int>(error.code());
   } catch (const std::exception& error) {
+    if (std::ferror(stdout)) {  // fmt::print throws what is none of floe's errors
+      fmt::print(stderr, "floe: error: standard output could not be written: {}\n", error.what());
+      return static_cast<int>(floe::ExitCode::bad_output);
+    }
     fmt::print(stderr,
                "floe: internal error: {}\n"
                "This is a mistake in floe, not in your input. Please report it, with the command:\n  {}\n",

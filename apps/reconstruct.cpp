@@ -49,7 +49,7 @@ void run_reconstruct(const ReconstructOptions& options) {
     results["events"].push_back(event_json(event, fit));
     if (!fit.usable())
       failures += fmt::format("{}event {}: {}", failures.empty() ? "" : "\n", event.id, fit.reason);
-    if (!options.output.quiet) fmt::print("event {}\n{}\n", event.id, describe(fit));
+    if (!options.output.quiet) fmt::print("event {}: {}\n", event.id, describe(fit));
   }
   json.write(json_text(results));
   json.commit();

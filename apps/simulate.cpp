@@ -73,7 +73,7 @@ Cascade parse_cascade(const SimulateOptions& options) {
   Cascade cascade = options.cascade;  // holds the time
   cascade.position = {v[0], v[1], v[2]};
   cascade.zenith = v[3] * degree;
-  cascade.azimuth = v[4] * degree;
+  cascade.azimuth = (v[4] < 0 ? v[4] + 360 : v[4]) * degree;
   cascade.energy = v[5];
   cascade.kind = cascade_kind_of(options.particle);
   return cascade;
