@@ -1,6 +1,8 @@
 // What light a module accepts: by angle, by wavelength, by the shadow of its cable.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -51,7 +53,11 @@ class WavelengthSpectrum {
   const std::vector<Point>& points() const { return points_; }
 
  private:
+  static constexpr std::size_t guides = 256;
+  void lay_out_guides();
+
   std::vector<Point> points_;
+  std::array<std::uint16_t, guides> first_interval_{};  // where to look for a cumulative
 };
 WavelengthSpectrum read_wavelength_spectrum(const std::filesystem::path& wv_dat);
 

@@ -1,9 +1,11 @@
-#include <algorithm>
-#include <cmath>
+#include "geometry/clearance_map.h"
+
+#include <limits>
+#include <map>
+#include <utility>
 
 #include "data/base/constants.h"
 #include "geometry/crossing_order.h"
-#include "geometry/module_scene.h"
 
 namespace floe {
 
@@ -12,16 +14,18 @@ namespace {
 constexpr float finest_cell = 2;                // [m]
 constexpr std::size_t largest_table = 4 << 20;  // [cells]; wider detectors get coarser cells
 constexpr float rounding = 5e-3F;               // single precision, 10 km from the origin [m]
+// Detectors whose modules hang in more places than this do without the tables along columns.
+constexpr std::size_t most_columns = 2000;
 
-// The places (x, y) where modules hang, each once: a vertical string has one.
-std::vector<Eigen::Vector2f> columns_of(const Detector& detector) {
-  std::vector<Eigen::Vector2f> columns;
-  for (const Module& module : detector.modules()) columns.push_back(module.position.head<2>().cast<float>());
-  const auto before = [](const auto& a, const auto& b) {
-    return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
-  };
-  std::sort(columns.begin(), columns.end(), before);
-  columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+// The modules by the place (x, y) where they hang: a vertical string has one.
+std::vector<std::vector<Vec3f>> columns_of(const Detector& detector) {
+  std::map<std::pair<float, float>, std::vector<Vec3f>> by_place;
+  for (const Module& module : detector.modules()) {
+    const Vec3f position = module.position.cast<float>();
+    by_place[{position.x(), position.y()}].push_back(position);
+  }
+  std::vector<std::vector<Vec3f>> columns;
+  for (auto& [place, modules] : by_place) columns.push_back(std::move(modules));
   return columns;
 }
 
@@ -38,7 +42,12 @@ ClearanceMap::ClearanceMap(const Detector& detector, double oversize) {
   high_ = extent.high.cast<float>();
   reach_ = static_cast<float>(oversize * module_radius) + rounding;
   lay_out_grid();
-  for (const auto& column : columns_of(detector)) enter_column(column.x(), column.y());
+  const Columns columns = columns_of(detector);
+  // With too many columns they share one table without gaps.
+  const bool with_gaps = columns.size() <= most_columns;
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    enter_column(with_gaps ? i : 0, columns[i].front().x(), columns[i].front().y());
+  enter_gaps(with_gaps ? columns : Columns(1));
 }
 
 void ClearanceMap::lay_out_grid() {
@@ -50,11 +59,12 @@ void ClearanceMap::lay_out_grid() {
   rows_ = cells_over(depth, cell_);
   x0_ = low_.x() - farthest;
   y0_ = low_.y() - farthest;
-  distance_.assign(columns_ * rows_, static_cast<std::uint8_t>(farthest / step));
+  constexpr auto far = static_cast<std::uint8_t>(farthest / step);
+  cells_.assign(columns_ * rows_, {far, far, 0});
 }
 
-// Lowers the cells around a place where modules hang; farther cells keep the largest distance.
-void ClearanceMap::enter_column(float x, float y) {
+// Enters a place where modules hang into the cells around it; farther cells keep the largest distance.
+void ClearanceMap::enter_column(std::size_t index, float x, float y) {
   const auto first = [&](float low, float start) {
     return static_cast<std::size_t>(std::max(0.0F, (low - farthest - start) * per_cell_));
   };
@@ -67,11 +77,39 @@ void ClearanceMap::enter_column(float x, float y) {
     for (std::size_t column = first(x, x0_); column < end(x, x0_, columns_); ++column) {
       const float west = x0_ + static_cast<float>(column) * cell_;
       const float dx = outside(x, west, west + cell_);
-      const float steps = std::min(std::sqrt(dx * dx + dy * dy), farthest) / step;
-      auto& cell = distance_[row * columns_ + column];
-      cell = std::min(cell, static_cast<std::uint8_t>(steps));
+      const auto distance =
+          static_cast<std::uint8_t>(std::min(std::sqrt(dx * dx + dy * dy), farthest) / step);
+      Cell& cell = cells_[row * columns_ + column];
+      if (distance < cell.nearest)
+        cell = {distance, cell.nearest, static_cast<std::uint16_t>(index)};
+      else
+        cell.second = std::min(cell.second, distance);
     }
   }
+}
+
+// Columns without modules have no gaps: 0 everywhere.
+void ClearanceMap::enter_gaps(const Columns& columns) {
+  slices_ = static_cast<std::size_t>((high_.z() - low_.z()) / slice) + 1;
+  gaps_.assign(columns.size() * slices_, 0);
+  for (std::size_t column = 0; column < columns.size(); ++column)
+    for (std::size_t i = 0; i < slices_ && !columns[column].empty(); ++i) {
+      const float bottom = low_.z() + static_cast<float>(i) * slice;
+      float gap = farthest;
+      for (const Vec3f& module : columns[column])
+        gap = std::min(gap, outside(module.z(), bottom - rounding, bottom + slice + rounding));
+      gaps_[column * slices_ + i] = static_cast<std::uint8_t>(gap / step);
+    }
+}
+
+// Outside the grid no module is nearer than the box that holds them all.
+float ClearanceMap::outside_grid(const Vec3f& position) const {
+  float square = 0;
+  for (int k = 0; k < 3; ++k) {
+    const float beyond = outside(position[k], low_[k], high_[k]);
+    square += beyond * beyond;
+  }
+  return std::max(0.0F, std::sqrt(square) - reach_);
 }
 
 }  // namespace floe

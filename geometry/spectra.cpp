@@ -49,18 +49,30 @@ WavelengthSpectrum::WavelengthSpectrum(std::vector<Point> points) : points_(std:
     throw InputError(
         fmt::format("wavelength spectrum: found cumulative values from {} to {}; expected 0 to 1",
                     points_.front().cumulative, points_.back().cumulative));
+  lay_out_guides();
+}
+
+// first_interval_[k] is the first interval that ends above k/guides: where the search for a cumulative
+// in [k, k + 1)/guides starts.
+void WavelengthSpectrum::lay_out_guides() {
+  std::size_t interval = 0;
+  for (std::size_t k = 0; k < guides; ++k) {
+    const double start = static_cast<double>(k) / guides;
+    while (interval + 2 < points_.size() && !(points_[interval + 1].cumulative > start)) ++interval;
+    first_interval_[k] = static_cast<std::uint16_t>(interval);
+  }
 }
 
 double WavelengthSpectrum::sample(double u) const {
-  // The interval has cumulative <= u < next; at u = 1 the last one that rises.
-  const auto after = [](double value, const Point& point) { return value < point.cumulative; };
-  const auto before = [](const Point& point, double value) { return point.cumulative < value; };
-  const auto next = u < 1 ? std::upper_bound(points_.begin() + 1, points_.end(), std::max(u, 0.0), after)
-                          : std::lower_bound(points_.begin() + 1, points_.end(), 1.0, before);
-  const Point& high = *next;
-  const Point& low = *(next - 1);
-  const double fraction = (std::clamp(u, 0.0, 1.0) - low.cumulative) / (high.cumulative - low.cumulative);
-  return low.wavelength + fraction * (high.wavelength - low.wavelength);
+  const double inside = std::clamp(u, 0.0, 1.0);
+  const auto guide = std::min(static_cast<std::size_t>(inside * guides), guides - 1);
+  std::size_t interval = first_interval_[guide];
+  while (interval + 2 < points_.size() && !(points_[interval + 1].cumulative > inside)) ++interval;
+  // At u = 1 flat intervals at the end hold no light: the last one that rises.
+  while (interval > 0 && !(points_[interval + 1].cumulative > points_[interval].cumulative)) --interval;
+  const Point &low = points_[interval], &high = points_[interval + 1];
+  const double share = (inside - low.cumulative) / (high.cumulative - low.cumulative);
+  return low.wavelength + std::min(share, 1.0) * (high.wavelength - low.wavelength);
 }
 
 double WavelengthSpectrum::density(double wavelength) const {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "data/base/vec3.h"
+#include "propagation/engine/vector_math.h"
 
 namespace floe {
 

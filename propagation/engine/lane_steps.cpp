@@ -148,9 +148,9 @@ void birefringent_step(const IceView& ice, Lanes& lanes) {
 #pragma omp simd
   for (int i = 0; i < N; ++i) {
     const float radius_12 = std::sqrt(-2 * std::log(draw(lanes, i)));
-    const TurnFunctions turn_12 = turn_functions(draw(lanes, i));
+    const TurnFunctions<float> turn_12 = turn_functions(draw(lanes, i));
     const float radius_34 = std::sqrt(-2 * std::log(draw(lanes, i)));
-    const TurnFunctions turn_34 = turn_functions(draw(lanes, i));
+    const TurnFunctions<float> turn_34 = turn_functions(draw(lanes, i));
 
     const float cosine = smaller(1, std::fabs(flow_x * lanes.nx[i] + flow_y * lanes.ny[i]));
     const float steep = cosine * std::sqrt(1 - cosine * cosine);
@@ -191,7 +191,7 @@ void scatter(const IceView& ice, Lanes& lanes) {
 #pragma omp simd
   for (int i = 0; i < N; ++i) {
     const float loss = function.one_minus_cos(draw(lanes, i));
-    const TurnFunctions turn = turn_functions(draw(lanes, i));
+    const TurnFunctions<float> turn = turn_functions(draw(lanes, i));
     const float sine = std::sqrt(loss * (2 - loss));
     // The frame around n of directions.h, written out for one lane.
     const float nx = lanes.nx[i], ny = lanes.ny[i], nz = lanes.nz[i];

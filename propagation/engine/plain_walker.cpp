@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "data/base/constants.h"
+#include "geometry/clearance_map.h"
 #include "geometry/module_scene.h"
 #include "propagation/engine/anisotropy.h"
 #include "propagation/engine/birefringence.h"

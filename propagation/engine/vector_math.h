@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "data/base/vec3.h"
+
 namespace floe {
 
 // std::min and std::max take references, which keeps g++ 12 from vectorising a loop.
@@ -15,13 +17,17 @@ inline float larger(float a, float b) {
 
 // Sine and cosine of a fraction of a turn. (g++ merges sinf and cosf of one argument into a call that has
 // no vector form.)
+template <typename Scalar>
 struct TurnFunctions {
-  float sine, cosine;
+  Scalar sine, cosine;
 };
+inline TurnFunctions<double> turn_functions(double turn) {
+  return {std::sin(2 * pi * turn), std::cos(2 * pi * turn)};
+}
 
 // sin(2 pi u) and cos(2 pi u) for u in [0, 1], absolute error below 2e-7. With a = u - 1/2 and
 // b = |a| - 1/4 both follow from polynomials on |b| <= 1/4 (least squares on Chebyshev points).
-inline TurnFunctions turn_functions(float u) {
+inline TurnFunctions<float> turn_functions(float u) {
   const float a = u - 0.5f;
   const float b = std::fabs(a) - 0.25f;
   const float q = b * b;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry/clearance_map.h"
 #include "geometry/module_scene.h"
 #include "propagation/engine/lane_steps.h"
 #include "propagation/engine/photon_acceptance.h"
@@ -101,10 +102,10 @@ class VectorWalker : public PhotonWalker {
   }
 
   void find_heights(Lanes& lanes) const {
-    for (int i = 0; i < Lanes::count; ++i) {
-      const float shift = tilt_.is_flat() ? 0 : tilt_.shift(lanes.x[i], lanes.y[i], lanes.z[i]);
-      lanes.height[i] = (lanes.z[i] - shift - ice_.z_bottom) * ice_.layers_per_metre;
-    }
+    alignas(64) float shift[Lanes::count];
+    tilt_.shifts(lanes.x, lanes.y, lanes.z, shift, Lanes::count);
+    for (int i = 0; i < Lanes::count; ++i)
+      lanes.height[i] = (lanes.z[i] - shift[i] - ice_.z_bottom) * ice_.layers_per_metre;
   }
 
   // True when the photon ends here: on a module of nominal size, or back on the module that emitted it.

@@ -91,9 +91,10 @@ void LayerTilt::set_knots(const std::vector<double>& depths, const std::vector<s
   rows_per_metre_ = static_cast<float>(rows_ / (depths.back() - depths.front()));
   for (int row = 0; row < rows_; ++row) {
     const auto &below = shifts[rows_ - row], &above = shifts[rows_ - row - 1];
-    for (int column = 0; column < columns_; ++column)
-      knots_.push_back(
-          {static_cast<float>(below[column]), static_cast<float>(above[column] - below[column])});
+    for (int column = 0; column < columns_; ++column) {
+      values_.push_back(static_cast<float>(below[column]));
+      slopes_.push_back(static_cast<float>(above[column] - below[column]));
+    }
   }
 }
 
@@ -142,36 +143,6 @@ void LayerTilt::set_columns(const TiltMap& map) {
     }
 }
 
-float LayerTilt::shift(float x, float y, float z) const {
-  switch (kind_) {
-    case Kind::lines:
-      return lines_shift(x, y, z);
-    case Kind::map:
-      return map_shift(x, y, z);
-    case Kind::flat:
-      break;
-  }
-  return 0;
-}
-
-LayerTilt::Row LayerTilt::row_at(float z) const {
-  const float height = (z - z_bottom_) * rows_per_metre_;
-  // Beyond the ends the outermost rows continue. Clamped before it becomes an integer, which it may exceed.
-  const int row = static_cast<int>(std::clamp(height, 0.0f, static_cast<float>(rows_ - 1)));
-  return {row, height - static_cast<float>(row)};
-}
-
-float LayerTilt::lines_shift(float x, float y, float z) const {
-  const float distance = direction_x_ * x + direction_y_ * y - origin_;
-  int right = 1;  // counted rather than searched for: no branch to mispredict
-  for (int column = 1; column + 1 < columns_; ++column) right += distance >= distances_[column];
-  const int left = right - 1;
-  const float share = (distance - distances_[left]) / (distances_[right] - distances_[left]);
-  const Row row = row_at(z);
-  const float at_left = knot(left, row), at_right = knot(right, row);
-  return at_left + share * (at_right - at_left);
-}
-
 // The outline is convex: a place outside has its nearest point inside a side when it lies straight out from
 // that side, and then from no other; otherwise at a corner. (Comparing distances to sides alone would
 // jump near corners, where the distances differ by less than a float can tell.)
@@ -192,26 +163,6 @@ void LayerTilt::move_to_border(float& i, float& j) const {
     if (distance < nearest) nearest = distance, corner_i = ei, corner_j = ej;
   }
   i = corner_i, j = corner_j;
-}
-
-float LayerTilt::map_shift(float x, float y, float z) const {
-  float i = to_index_[0] * x + to_index_[1] * y + index_offset_[0];
-  float j = to_index_[2] * x + to_index_[3] * y + index_offset_[1];
-  const float last_i = static_cast<float>(count_[0] - 1), last_j = static_cast<float>(count_[1] - 1);
-  const bool inside = i >= 0 && j >= 0 && i <= last_i && j <= last_j &&
-                      i - j <= static_cast<float>(cut_[0] - 1) && j - i <= static_cast<float>(cut_[1] - 1);
-  if (!inside) move_to_border(i, j);
-
-  const int cell_i = std::clamp(static_cast<int>(i), 0, count_[0] - 2);
-  const int cell_j = std::clamp(static_cast<int>(j), 0, count_[1] - 2);
-  const float u = i - static_cast<float>(cell_i), v = j - static_cast<float>(cell_j);
-  // The diagonal splits the cell: below it (u > v) the third corner is (i+1, j), above it (i, j+1).
-  const int* corner = &column_of_[cell_j * count_[0] + cell_i];
-  const int third = u > v ? corner[1] : corner[count_[0]];
-  const float larger = std::max(u, v), smaller = std::min(u, v);
-  const Row row = row_at(z);
-  return (1 - larger) * knot(corner[0], row) + (larger - smaller) * knot(third, row) +
-         smaller * knot(corner[count_[0] + 1], row);
 }
 
 }  // namespace floe

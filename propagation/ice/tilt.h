@@ -19,17 +19,16 @@ class LayerTilt {
   LayerTilt(const IceTables& tables, const Detector& detector);
 
   bool is_flat() const { return kind_ == Kind::flat; }
-  float shift(float x, float y, float z) const;
+  float shift(float x, float y, float z) const {
+    float result;
+    shifts(&x, &y, &z, &result, 1);
+    return result;
+  }
+  // Of `count` places at once; vector code.
+  void shifts(const float* x, const float* y, const float* z, float* shift, int count) const;
 
  private:
   enum class Kind { flat, lines, map };
-  struct Knot {  // at a depth row's lower end, and its change per row upwards
-    float value, slope;
-  };
-  struct Row {  // in which a place is, and how many rows above its lower end
-    int index;
-    float height;
-  };
   // A side of the grid's outline (counterclockwise), in index coordinates; `gradient` gives the share of the
   // side at which the nearest point to a place lies.
   struct Edge {
@@ -40,19 +39,16 @@ class LayerTilt {
   void set_grid(const TiltMap& map);
   void set_columns(const TiltMap& map);
 
-  float lines_shift(float x, float y, float z) const;
-  float map_shift(float x, float y, float z) const;
+  static constexpr int block = 64;  // places that are looked up together
+  void lines_shifts(const float* x, const float* y, const float* z, float* shift, int count) const;
+  void map_shifts(const float* x, const float* y, const float* z, float* shift, int count) const;
   void move_to_border(float& i, float& j) const;
-  Row row_at(float z) const;
-  float knot(int column, const Row& row) const {
-    const Knot& at = knots_[row.index * columns_ + column];
-    return at.value + at.slope * row.height;
-  }
 
   Kind kind_ = Kind::flat;
   int rows_ = 0, columns_ = 0;  // rows: intervals of depth, bottom first
   float z_bottom_ = 0, rows_per_metre_ = 0;
-  std::vector<Knot> knots_;  // [row * columns + column]
+  // At a depth row's lower end, and the change per row upwards: [row * columns + column].
+  std::vector<float> values_, slopes_;
 
   // 1D
   float direction_x_ = 0, direction_y_ = 0, origin_ = 0;

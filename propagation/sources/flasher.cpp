@@ -31,8 +31,8 @@ WavelengthSpectrum smooth_step_line(double nominal, double low, double high) {
 Vec3f isotropic_direction(RandomStream& random) {
   const float cosine = 2 * random.uniform() - 1;
   const float sine = std::sqrt(1 - cosine * cosine);
-  const float angle = static_cast<float>(2 * pi) * random.uniform();
-  return {sine * std::cos(angle), sine * std::sin(angle), cosine};
+  const auto turn = turn_functions(random.uniform());
+  return {sine * turn.cosine, sine * turn.sine, cosine};
 }
 
 // von Mises-Fisher about `axis`: 1 - cos = -w ln(1 - u (1 - exp(-2/w))), w = width^2 [rad^2].
@@ -58,7 +58,8 @@ FlasherSource::FlasherSource(const Detector& detector, ModuleId module, const Fl
     : settings_(settings),
       spectrum_(std::move(spectrum)),
       module_(detector.index_of(module)),
-      centre_(detector.modules()[module_].position) {
+      centre_(detector.modules()[module_].position.cast<float>()),
+      led_(unit_vector(pi / 2 - settings.elevation, settings.azimuth.value_or(0)).cast<float>()) {
   if (!(settings.photons >= 0) || !std::isfinite(settings.photons))
     throw UsageError("a flasher's number of photons must be finite and not negative");
   if (!(settings.beam_width >= 0 && settings.beam_width <= 90 * degree))
@@ -71,11 +72,14 @@ EmittedPhoton FlasherSource::emit(RandomStream& random) const {
   if (settings_.isotropic) {
     photon.direction = isotropic_direction(random);
   } else {
-    const double azimuth = settings_.azimuth ? *settings_.azimuth : 2 * pi * random.uniform();
-    const Vec3 led = unit_vector(pi / 2 - settings_.elevation, azimuth);
-    photon.direction = beam_direction(led.cast<float>(), settings_.beam_width, random);
+    Vec3f led = led_;
+    if (!settings_.azimuth) {
+      const auto turn = turn_functions(random.uniform());
+      led = {led_.x() * turn.cosine, led_.x() * turn.sine, led_.z()};
+    }
+    photon.direction = beam_direction(led, settings_.beam_width, random);
   }
-  photon.position = (centre_ + module_radius * photon.direction.cast<double>()).cast<float>();
+  photon.position = centre_ + static_cast<float>(module_radius) * photon.direction;
   photon.time = static_cast<float>(settings_.time + module_radius / speed_of_light);
   return photon;
 }

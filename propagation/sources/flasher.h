@@ -42,7 +42,8 @@ class FlasherSource : public Source {
   FlasherSettings settings_;
   WavelengthSpectrum spectrum_;
   std::size_t module_;
-  Vec3 centre_;
+  Vec3f centre_;
+  Vec3f led_;  // the LED's direction, at azimuth 0 when there are LEDs all around
 };
 
 // All photons start at one place and time, into all directions alike, or along `direction`.

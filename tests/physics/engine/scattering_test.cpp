@@ -90,7 +90,7 @@ TEST(Deflect, KeepsTheAngleAndSpreadsEvenlyAround) {
 TEST(TurnFunctions, AreSineAndCosine) {
   for (int i = 0; i <= 100000; ++i) {
     const float u = static_cast<float>(i) / 100000;
-    const TurnFunctions turn = turn_functions(u);
+    const TurnFunctions<float> turn = turn_functions(u);
     ASSERT_NEAR(turn.sine, std::sin(2 * pi * static_cast<double>(u)), 3e-7) << u;
     ASSERT_NEAR(turn.cosine, std::cos(2 * pi * static_cast<double>(u)), 3e-7) << u;
   }
