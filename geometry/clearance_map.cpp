@@ -1,5 +1,6 @@
 #include "geometry/clearance_map.h"
 
+#include <algorithm>
 #include <limits>
 #include <map>
 #include <utility>
@@ -14,102 +15,122 @@ namespace {
 constexpr float finest_cell = 2;                // [m]
 constexpr std::size_t largest_table = 4 << 20;  // [cells]; wider detectors get coarser cells
 constexpr float rounding = 5e-3F;               // single precision, 10 km from the origin [m]
-// Detectors whose modules hang in more places than this do without the tables along columns.
-constexpr std::size_t most_columns = 2000;
-
-// The modules by the place (x, y) where they hang: a vertical string has one.
-std::vector<std::vector<Vec3f>> columns_of(const Detector& detector) {
-  std::map<std::pair<float, float>, std::vector<Vec3f>> by_place;
-  for (const Module& module : detector.modules()) {
-    const Vec3f position = module.position.cast<float>();
-    by_place[{position.x(), position.y()}].push_back(position);
-  }
-  std::vector<std::vector<Vec3f>> columns;
-  for (auto& [place, modules] : by_place) columns.push_back(std::move(modules));
-  return columns;
-}
+// Detectors with more modules, or whose modules hang in more places, do without the tables along columns.
+constexpr std::size_t most_modules = 60000, most_columns = 2000;
 
 std::size_t cells_over(float length, float cell) {
   return static_cast<std::size_t>(std::ceil(length / cell));
 }
 
+// A packed entry of either table.
+std::uint32_t packed(std::uint32_t nearest, std::uint32_t second, std::uint32_t index) {
+  return nearest | second << 8 | index << 16;
+}
+
+float outside(float x, float low, float high) {
+  return std::max({low - x, x - high, 0.0F});
+}
+
 }  // namespace
+
+std::vector<ClearanceMap::Column> ClearanceMap::columns_of(const Detector& detector) {
+  std::map<std::pair<float, float>, Column> by_place;
+  for (std::size_t i = 0; i < detector.size(); ++i) {
+    const Vec3f position = detector.modules()[i].position.cast<float>();
+    Column& column = by_place[{position.x(), position.y()}];
+    column.x = position.x();
+    column.y = position.y();
+    column.modules.emplace_back(position.z(), static_cast<std::uint32_t>(i));
+  }
+  std::vector<Column> columns;
+  for (auto& [place, column] : by_place) columns.push_back(std::move(column));
+  return columns;
+}
 
 ClearanceMap::ClearanceMap(const Detector& detector, double oversize) {
   check_oversize(oversize);
   const auto extent = detector.extent();
-  low_ = extent.low.cast<float>();
-  high_ = extent.high.cast<float>();
-  reach_ = static_cast<float>(oversize * module_radius) + rounding;
+  const Vec3f low = extent.low.cast<float>(), high = extent.high.cast<float>();
+  view_.low_x = low.x(), view_.low_y = low.y(), view_.low_z = low.z();
+  view_.high_x = high.x(), view_.high_y = high.y(), view_.high_z = high.z();
+  view_.reach = static_cast<float>(oversize * module_radius) + rounding;
   lay_out_grid();
-  const Columns columns = columns_of(detector);
-  // With too many columns they share one table without gaps.
-  const bool with_gaps = columns.size() <= most_columns;
+  const std::vector<Column> columns = columns_of(detector);
+  const bool with_slices = columns.size() <= most_columns && detector.size() <= most_modules;
   for (std::size_t i = 0; i < columns.size(); ++i)
-    enter_column(with_gaps ? i : 0, columns[i].front().x(), columns[i].front().y());
-  enter_gaps(with_gaps ? columns : Columns(1));
+    enter_column(with_slices ? static_cast<std::uint32_t>(i) : 0, columns[i].x, columns[i].y);
+  // Without tables along columns all share one in which a module is everywhere.
+  enter_slices(with_slices ? columns : std::vector<Column>(1));
+  view_.cells = cells_.data();
+  view_.slices = slices_.data();
 }
 
 void ClearanceMap::lay_out_grid() {
-  const float width = high_.x() - low_.x() + 2 * farthest, depth = high_.y() - low_.y() + 2 * farthest;
+  const float width = view_.high_x - view_.low_x + 2 * farthest,
+              depth = view_.high_y - view_.low_y + 2 * farthest;
   cell_ = finest_cell;
   while (cells_over(width, cell_) * cells_over(depth, cell_) > largest_table) cell_ *= 2;
-  per_cell_ = 1 / cell_;
-  columns_ = cells_over(width, cell_);
-  rows_ = cells_over(depth, cell_);
-  x0_ = low_.x() - farthest;
-  y0_ = low_.y() - farthest;
-  constexpr auto far = static_cast<std::uint8_t>(farthest / step);
-  cells_.assign(columns_ * rows_, {far, far, 0});
+  const std::size_t columns = cells_over(width, cell_), rows = cells_over(depth, cell_);
+  view_.per_cell = 1 / cell_;
+  view_.columns = static_cast<std::int32_t>(columns);
+  // A place beyond the last cell's far end, by rounding too, counts as outside.
+  view_.last_column = static_cast<float>(columns) - 0.01F;
+  view_.last_row = static_cast<float>(rows) - 0.01F;
+  view_.x0 = view_.low_x - farthest;
+  view_.y0 = view_.low_y - farthest;
+  constexpr auto far = static_cast<std::uint32_t>(farthest / step);
+  cells_.assign(columns * rows, packed(far, far, 0));
 }
 
 // Enters a place where modules hang into the cells around it; farther cells keep the largest distance.
-void ClearanceMap::enter_column(std::size_t index, float x, float y) {
+void ClearanceMap::enter_column(std::uint32_t index, float x, float y) {
+  const auto columns = static_cast<std::size_t>(view_.columns), rows = cells_.size() / columns;
   const auto first = [&](float low, float start) {
-    return static_cast<std::size_t>(std::max(0.0F, (low - farthest - start) * per_cell_));
+    return static_cast<std::size_t>(std::max(0.0F, (low - farthest - start) * view_.per_cell));
   };
   const auto end = [&](float high, float start, std::size_t count) {
-    return std::min(count, static_cast<std::size_t>((high + farthest - start) * per_cell_) + 1);
+    return std::min(count, static_cast<std::size_t>((high + farthest - start) * view_.per_cell) + 1);
   };
-  for (std::size_t row = first(y, y0_); row < end(y, y0_, rows_); ++row) {
-    const float south = y0_ + static_cast<float>(row) * cell_;
+  for (std::size_t row = first(y, view_.y0); row < end(y, view_.y0, rows); ++row) {
+    const float south = view_.y0 + static_cast<float>(row) * cell_;
     const float dy = outside(y, south, south + cell_);
-    for (std::size_t column = first(x, x0_); column < end(x, x0_, columns_); ++column) {
-      const float west = x0_ + static_cast<float>(column) * cell_;
+    for (std::size_t column = first(x, view_.x0); column < end(x, view_.x0, columns); ++column) {
+      const float west = view_.x0 + static_cast<float>(column) * cell_;
       const float dx = outside(x, west, west + cell_);
       const auto distance =
-          static_cast<std::uint8_t>(std::min(std::sqrt(dx * dx + dy * dy), farthest) / step);
-      Cell& cell = cells_[row * columns_ + column];
-      if (distance < cell.nearest)
-        cell = {distance, cell.nearest, static_cast<std::uint16_t>(index)};
-      else
-        cell.second = std::min(cell.second, distance);
+          static_cast<std::uint32_t>(std::min(std::sqrt(dx * dx + dy * dy), farthest) / step);
+      std::uint32_t& cell = cells_[row * columns + column];
+      const std::uint32_t nearest = cell & 255, second = (cell >> 8) & 255;
+      cell = distance < nearest ? packed(distance, nearest, index)
+                                : packed(nearest, std::min(second, distance), cell >> 16);
     }
   }
 }
 
-// Columns without modules have no gaps: 0 everywhere.
-void ClearanceMap::enter_gaps(const Columns& columns) {
-  slices_ = static_cast<std::size_t>((high_.z() - low_.z()) / slice) + 1;
-  gaps_.assign(columns.size() * slices_, 0);
+void ClearanceMap::enter_slices(const std::vector<Column>& columns) {
+  const auto count = static_cast<std::size_t>((view_.high_z - view_.low_z) / slice) + 1;
+  view_.slice_count = static_cast<std::int32_t>(count);
+  view_.per_slice = 1 / slice;
+  view_.last_slice = static_cast<float>(count) - 0.01F;
+  slices_.assign(columns.size() * count, 0);
   for (std::size_t column = 0; column < columns.size(); ++column)
-    for (std::size_t i = 0; i < slices_ && !columns[column].empty(); ++i) {
-      const float bottom = low_.z() + static_cast<float>(i) * slice;
-      float gap = farthest;
-      for (const Vec3f& module : columns[column])
-        gap = std::min(gap, outside(module.z(), bottom - rounding, bottom + slice + rounding));
-      gaps_[column * slices_ + i] = static_cast<std::uint8_t>(gap / step);
+    for (std::size_t i = 0; i < count && !columns[column].modules.empty(); ++i) {
+      const float bottom = view_.low_z + static_cast<float>(i) * slice;
+      float nearest = farthest, next = farthest;
+      std::uint32_t module = 0;
+      for (const auto& [z, index] : columns[column].modules) {
+        const float gap = outside(z, bottom - rounding, bottom + slice + rounding);
+        if (gap < nearest || nearest == farthest) {
+          next = std::min(nearest, next);
+          nearest = std::min(gap, farthest);
+          module = index;
+        } else {
+          next = std::min(next, gap);
+        }
+      }
+      slices_[column * count + i] =
+          packed(static_cast<std::uint32_t>(nearest / step), static_cast<std::uint32_t>(next / step), module);
     }
-}
-
-// Outside the grid no module is nearer than the box that holds them all.
-float ClearanceMap::outside_grid(const Vec3f& position) const {
-  float square = 0;
-  for (int k = 0; k < 3; ++k) {
-    const float beyond = outside(position[k], low_[k], high_[k]);
-    square += beyond * beyond;
-  }
-  return std::max(0.0F, std::sqrt(square) - reach_);
 }
 
 }  // namespace floe

@@ -1,76 +1,104 @@
 // How far a photon may walk before the geometry matters again.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "geometry/detector.h"
 
 namespace floe {
 
-// A lower bound of the distance [m] a photon may walk from a point, in any direction and through any
-// number of scatters, before it can meet any widened module: tabulated, never larger than the truth, 0
-// near modules. A widened module of oversize X is met within X module radii of its centre.
+// What a photon at a point may meet: it can walk `free` metres, in any direction and through any number
+// of scatters, before it can meet any widened module, and `free_of_others` before it can meet one other than
+// `nearest` (an index into Detector::modules()). Both are lower bounds, at least 0.
+struct ModuleClearance {
+  float free, free_of_others;
+  std::uint32_t nearest;
+};
+
+// The clearance of any point, tabulated. A widened module of oversize X is met within X module radii of its
+// centre.
 //
 // Modules hang in vertical columns. A horizontal grid knows for each cell the nearest column, how far it is
-// at least, and how far the second nearest is; a table along the nearest column knows how far above or
-// below its nearest module is. So a photon beside a string, between two modules, is still free to walk.
+// at least, and how far the second nearest is; a table along the nearest column knows its nearest module and
+// how far above or below that and the next one are.
 class ClearanceMap {
  public:
   // Throws UsageError unless 1 <= oversize <= 100.
   ClearanceMap(const Detector& detector, double oversize);
+  ClearanceMap(const ClearanceMap&) = delete;  // the view points into the tables
+  ClearanceMap& operator=(const ClearanceMap&) = delete;
 
-  float operator()(const Vec3f& position) const {
-    const float column = (position.x() - x0_) * per_cell_, row = (position.y() - y0_) * per_cell_;
-    if (!(column >= 0 && row >= 0 && column < static_cast<float>(columns_) &&
-          row < static_cast<float>(rows_)))
-      return outside_grid(position);
-    const Cell& cell = cells_[static_cast<std::size_t>(row) * columns_ + static_cast<std::size_t>(column)];
-    const float beyond = outside(position.z(), low_.z(), high_.z());
-    const float gap = beyond + vertical_gap(cell.column, position.z());
-    const float to_nearest = step * cell.nearest, to_second = step * cell.second;
-    const float square =
-        std::min(to_nearest * to_nearest + gap * gap, to_second * to_second + beyond * beyond);
-    return std::max(0.0F, std::sqrt(square) - reach_);
-  }
+  // Branch-free, so that a loop over points becomes vector code.
+  ModuleClearance at(float x, float y, float z) const { return view_.at(x, y, z); }
+  float operator()(const Vec3f& position) const { return at(position.x(), position.y(), position.z()).free; }
+
+  // The tables on plain pointers, valid as long as the map.
+  class View {
+   public:
+    ModuleClearance at(float x, float y, float z) const {
+      const float beyond = outside(z, low_z, high_z);
+      const float west = outside(x, low_x, high_x), south = outside(y, low_y, high_y);
+      const float column = (x - x0) * per_cell, row = (y - y0) * per_cell;
+      const float aside_grid = larger(larger(-column, column - last_column), larger(-row, row - last_row));
+      const auto in_columns = static_cast<std::int32_t>(inside(column, last_column));
+      const auto in_rows = static_cast<std::int32_t>(inside(row, last_row));
+      const std::uint32_t cell = cells[in_rows * columns + in_columns];
+      const float to_first = step * static_cast<float>(static_cast<std::int32_t>(cell & 255));
+      const float to_second = step * static_cast<float>(static_cast<std::int32_t>((cell >> 8) & 255));
+      const auto place = static_cast<std::int32_t>(inside((z - low_z) * per_slice, last_slice));
+      const std::uint32_t slice_entry = slices[static_cast<std::int32_t>(cell >> 16) * slice_count + place];
+      const float gap = beyond + step * static_cast<float>(static_cast<std::int32_t>(slice_entry & 255));
+      const float next_gap =
+          beyond + step * static_cast<float>(static_cast<std::int32_t>((slice_entry >> 8) & 255));
+      const float others_aside = to_second * to_second + beyond * beyond;
+      const float near = smaller(to_first * to_first + gap * gap, others_aside);
+      const float others = smaller(to_first * to_first + next_gap * next_gap, others_aside);
+      // Outside the grid no module is nearer than the box that holds them all.
+      const float box = west * west + south * south + beyond * beyond;
+      const float near_square = aside_grid > 0 ? box : near, others_square = aside_grid > 0 ? box : others;
+      return {larger(0, std::sqrt(near_square) - reach), larger(0, std::sqrt(others_square) - reach),
+              slice_entry >> 16};
+    }
+
+   private:
+    friend class ClearanceMap;
+    static float larger(float a, float b) { return a < b ? b : a; }
+    static float smaller(float a, float b) { return a < b ? a : b; }
+    static float inside(float a, float last) { return smaller(larger(a, 0), last); }
+    static float outside(float a, float low, float high) { return larger(larger(low - a, a - high), 0); }
+
+    const std::uint32_t* cells;   // by row: distances of the nearest and the second nearest column from
+                                  // the cell's nearest point [steps, rounded down], nearest column << 16
+    const std::uint32_t* slices;  // by column: distances up or down to the nearest and the next module from
+                                  // the slice's nearest point [steps, rounded down], nearest module << 16
+    std::int32_t columns, slice_count;
+    float x0, y0, per_cell, last_column, last_row, per_slice, last_slice;
+    float low_x, low_y, low_z, high_x, high_y, high_z;  // extent of the modules' centres
+    float reach;                                        // of a widened module, and what rounding may cost [m]
+  };
+  const View& view() const { return view_; }
 
  private:
   static constexpr float step = 0.25F;       // of the tabulated distances [m]
   static constexpr float farthest = 63.75F;  // tabulated [m]
   static constexpr float slice = 1;          // of the tables along columns [m]
 
-  struct Cell {
-    std::uint8_t nearest,
-        second;            // distances of columns from the cell's nearest point, in steps, rounded down
-    std::uint16_t column;  // the nearest
+  struct Column {  // modules at the same (x, y)
+    float x, y;
+    std::vector<std::pair<float, std::uint32_t>> modules;  // height, index
   };
-
-  // Distance of a coordinate to an interval.
-  static float outside(float x, float low, float high) { return std::max({low - x, x - high, 0.0F}); }
-
-  // Lower bound of the height from a point, moved between the highest and the lowest module of all, to
-  // the nearest module of a column.
-  float vertical_gap(std::size_t column, float z) const {
-    const float place = (std::clamp(z, low_.z(), high_.z()) - low_.z()) / slice;
-    return step * gaps_[column * slices_ + static_cast<std::size_t>(place)];
-  }
-  float outside_grid(const Vec3f& position) const;
-
-  using Columns = std::vector<std::vector<Vec3f>>;  // modules at the same (x, y)
+  static std::vector<Column> columns_of(const Detector& detector);
   void lay_out_grid();
-  void enter_column(std::size_t index, float x, float y);
-  void enter_gaps(const Columns& columns);
+  void enter_column(std::uint32_t index, float x, float y);
+  void enter_slices(const std::vector<Column>& columns);
 
-  std::vector<Cell> cells_;  // by row
-  std::size_t columns_ = 0, rows_ = 0;
-  float x0_ = 0, y0_ = 0, cell_ = 0, per_cell_ = 0;
-  std::vector<std::uint8_t> gaps_;  // in steps, rounded down: [column * slices + slice]
-  std::size_t slices_ = 0;
-  Vec3f low_, high_;  // extent of the modules' centres
-  float reach_ = 0;   // of a widened module, and what rounding may cost [m]
+  std::vector<std::uint32_t> cells_, slices_;
+  float cell_ = 0;
+  View view_{};
 };
 
 }  // namespace floe

@@ -127,6 +127,17 @@ void find_segments(const IceView& ice, Lanes& lanes) {
   }
 }
 
+void find_reach(const ClearanceMap::View& clearance, Lanes& lanes) {
+  const ClearanceMap::View view = clearance;
+#pragma omp simd
+  for (int i = 0; i < N; ++i) {
+    const ModuleClearance at = view.at(lanes.x[i], lanes.y[i], lanes.z[i]);
+    lanes.may_meet[i] = lanes.length[i] >= at.free ? 1 : 0;
+    lanes.may_meet_others[i] = lanes.length[i] >= at.free_of_others ? 1 : 0;
+    lanes.nearest_module[i] = at.nearest;
+  }
+}
+
 namespace {
 
 void advance(Lanes& lanes) {

@@ -1,6 +1,7 @@
 // The parts of a walk's step that all lanes take together; compiled to vector code.
 #pragma once
 
+#include "geometry/clearance_map.h"
 #include "propagation/engine/ice_view.h"
 #include "propagation/engine/lanes.h"
 
@@ -12,6 +13,9 @@ void draw_scattering_depths(Lanes& lanes);
 // From height, direction and optical depths: the straight segment to the next scatter or to absorption,
 // through all layers it crosses. Spends absorption_depth.
 void find_segments(const IceView& ice, Lanes& lanes);
+
+// Which lanes' segments are long enough to meet a module.
+void find_reach(const ClearanceMap::View& clearance, Lanes& lanes);
 
 // To the segment's end, through the birefringent step there, and into a new direction.
 void advance_and_scatter(const IceView& ice, Lanes& lanes);

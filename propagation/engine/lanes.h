@@ -17,8 +17,6 @@ struct alignas(64) Lanes {
   Array<float> x, y, z, time, nx, ny, nz, slowness, absorption_depth;
   // Its wavelength [nm] and the wavelength's factors in the layers' coefficients (IceLayer).
   Array<float> wavelength, scattering_power, absorption_dust, absorption_thermal;
-  // Distance it may still walk before geometry matters [m].
-  Array<float> clearance;
   // Its random stream.
   Array<std::uint32_t> random0, random1, random2, random3;
 
@@ -27,6 +25,10 @@ struct alignas(64) Lanes {
   Array<float> scattering_depth, height, length, diffusion, deflection;
   Array<std::int32_t> layer;
   Array<std::int32_t> absorbed;
+
+  // Whether a module may be on the segment, and whether more than the nearest one may be.
+  Array<std::int32_t> may_meet, may_meet_others;
+  Array<std::uint32_t> nearest_module;
 
   // Which photon of the batch; whether it left the emitting module yet; no photon: number < 0.
   Array<std::int64_t> number;

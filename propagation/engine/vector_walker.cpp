@@ -19,10 +19,12 @@ class VectorWalker : public PhotonWalker {
       : model_(model),
         tilt_(model.ice->tilt()),
         ice_(*model.ice),
-        stops_at_module_(oversize == 1),
+        oversize_(static_cast<float>(oversize)),
         finder_(make_embree_finder(*model.detector, oversize)),
         clearance_(*model.detector, oversize),
-        acceptance_(*model.detector, model.acceptance) {}
+        acceptance_(*model.detector, model.acceptance) {
+    for (const Module& module : model.detector->modules()) centres_.push_back(module.position.cast<float>());
+  }
 
   WalkerCounts walk(const Source& source, const PhotonBatch& batch,
                     std::vector<SimulatedHit>& hits) const override {
@@ -33,11 +35,10 @@ class VectorWalker : public PhotonWalker {
       draw_scattering_depths(work.lanes);
       find_heights(work.lanes);
       find_segments(ice_, work.lanes);
-      for (int lane = 0; lane < Lanes::count; ++lane) {
-        if (work.lanes.number[lane] < 0) continue;
-        const bool stopped = meet_modules(work, lane);
-        work.lanes.absorbed[lane] |= stopped;
-      }
+      find_reach(clearance_.view(), work.lanes);
+      for (int lane = 0; lane < Lanes::count; ++lane)
+        if (work.lanes.may_meet[lane] && work.lanes.number[lane] >= 0)
+          work.lanes.absorbed[lane] |= meet_modules(work, lane);
       advance_and_scatter(ice_, work.lanes);
       for (int lane = 0; lane < Lanes::count; ++lane) {
         if (work.lanes.number[lane] < 0) continue;
@@ -97,7 +98,6 @@ class VectorWalker : public PhotonWalker {
     lanes.absorption_dust[lane] = factors.absorption_dust;
     lanes.absorption_thermal[lane] = factors.absorption_thermal;
     lanes.slowness[lane] = factors.slowness;
-    lanes.clearance[lane] = 0;
     lanes.scatters[lane] = 0;
   }
 
@@ -112,18 +112,17 @@ class VectorWalker : public PhotonWalker {
   bool meet_modules(Batch& work, int lane) const {
     Lanes& lanes = work.lanes;
     const float length = lanes.length[lane];
-    // A displaced photon ends no farther from its start than the segment's length.
-    lanes.clearance[lane] -= length;
-    if (lanes.clearance[lane] > 0) return false;
     const Vec3f origin{lanes.x[lane], lanes.y[lane], lanes.z[lane]};
-    const float clear = clearance_(origin);
-    lanes.clearance[lane] = clear - length;
-    if (length < clear) return false;
-
-    ++work.counts.queries;
     const Vec3f direction{lanes.nx[lane], lanes.ny[lane], lanes.nz[lane]};
     work.crossings.clear();
-    finder_->find(origin, direction, length, work.crossings);
+    if (lanes.may_meet_others[lane]) {
+      ++work.counts.queries;
+      finder_->find(origin, direction, length, work.crossings);
+    } else {
+      ModuleCrossing crossing{lanes.nearest_module[lane], 0, {}};
+      if (cross_module(centres_[crossing.module], oversize_, origin, direction, length, crossing))
+        work.crossings.push_back(crossing);
+    }
     if (work.crossings.empty()) return false;
     RandomStream random = lanes.stream(lane);
     const bool stopped = land(work, lane, origin, direction, random);
@@ -147,7 +146,7 @@ class VectorWalker : public PhotonWalker {
         work.hits.push_back(
             {crossing.module, time, lanes.wavelength[lane], direction, crossing.inward, photon});
       }
-      if (stops_at_module_) return true;
+      if (oversize_ == 1) return true;
     }
     return false;
   }
@@ -162,7 +161,8 @@ class VectorWalker : public PhotonWalker {
   const Model model_;
   const LayerTilt& tilt_;
   IceView ice_;
-  bool stops_at_module_;
+  float oversize_;
+  std::vector<Vec3f> centres_;
   std::unique_ptr<ModuleFinder> finder_;
   ClearanceMap clearance_;
   PhotonAcceptance acceptance_;

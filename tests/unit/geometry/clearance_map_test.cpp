@@ -72,6 +72,15 @@ class Clearance : public testing::TestWithParam<double> {
       // A landing point is within X radii of the centre.
       const double truth = (nearest.position - point).norm() - oversize * module_radius;
       ASSERT_LE(free, std::max(truth, 0.0)) << point.transpose();
+      const Vec3f place = point.cast<float>();
+      const ModuleClearance at = clearance.at(place.x(), place.y(), place.z());
+      ASSERT_GE(at.free_of_others, at.free);
+      if (at.free_of_others > at.free) {
+        for (std::size_t i = 0; i < detector.size(); ++i) {
+          const double distance = (detector.modules()[i].position - point).norm() - oversize * module_radius;
+          if (i != at.nearest) ASSERT_LE(at.free_of_others, std::max(distance, 0.0)) << point.transpose();
+        }
+      }
       const Vec3 towards = k % 2 ? random_direction(random) : (nearest.position - point).normalized();
       finder->find(point.cast<float>(), towards.cast<float>().normalized(), free, met);
       ASSERT_TRUE(met.empty()) << point.transpose();
