@@ -1,6 +1,7 @@
 #include "reco/direct_fit/arrival_profile.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace floe {
@@ -14,6 +15,11 @@ ArrivalProfile::ArrivalProfile(double begin, double end, double step)
 void ArrivalProfile::add(double time, double weight) {
   const double place = std::clamp(std::floor((time - begin_) / step_), 1.0, double(weight_.size()) - 2);
   weight_[static_cast<std::size_t>(place)] += weight;
+}
+
+void ArrivalProfile::add(const ArrivalProfile& other, double factor) {
+  assert(weight_.size() == other.weight_.size() && begin_ == other.begin_ && step_ == other.step_);
+  for (std::size_t i = 0; i < weight_.size(); ++i) weight_[i] += factor * other.weight_[i];
 }
 
 // Between two centres the density is linear: the weight there is the mean of the two cells.

@@ -13,7 +13,8 @@ class ArrivalProfile {
   // Cells of `step` ns cover [begin, end]; what lies outside is counted in the outermost cells.
   ArrivalProfile(double begin, double end, double step);
   void add(double time, double weight);
-  void close();  // after the last add()
+  void add(const ArrivalProfile& other, double factor);  // of the same begin, end and step
+  void close();                                          // after the last add()
 
   // Weight before `time`, and its derivative [1/ns]. Any time, also infinite.
   double cumulative(double time) const;

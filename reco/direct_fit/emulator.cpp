@@ -36,19 +36,24 @@ double Emulator::noise_counts(const ModuleLight& module, std::size_t bin) const 
 }
 
 void Emulator::evaluate_module(const ModuleLight& module, std::size_t first_bin, const Vector7& p,
-                               const Vec3& centre, std::vector<Evaluation>& result) const {
-  const Vec3 offset = centre - module.position;
-  const double distance = soft_distance(offset);
-  const Vec3 outward = offset / distance;  // gradient of the distance
-  const PointLight light = point_light(distance, module.ice);
-  const double later = p(5) + light_slowness() * (distance - module.distance);
+                               const LightCentre& at, const LocalFrame::DirectionChange& turn,
+                               std::vector<Evaluation>& result) const {
+  const Sight seen = sight(at.position, at.direction, module.position);
+  const PointLight light = point_light(seen.distance, module.ice);
+  const ShapeTerms terms = terms_of(seen) - module.origin_terms, by_cosine = terms_by_cosine(seen);
+  const double later = p(5) + light_slowness() * (seen.distance - module.distance);
 
   double low = 0, low_shifted = 0, low_density = 0;  // of the profile, at the bin's lower edge
   for (std::size_t b = 0; b < module.bin_count(); ++b) {
     const Coefficients& c = module.bins[b].coefficients;
     Evaluation& e = result[first_bin + b];
-    e.log_mean = light.log_light + p(6) + c(0) + c.tail<5>().dot(p.head<5>());
-    e.gradient << light.slope * outward + c.segment<3>(1), c(4), c(5), 0, 1;
+    const ShapeTerms& shape = module.shapes[b];
+    e.log_mean = light.log_light + shape.dot(terms) + p(6) + c(0) + c.tail<5>().dot(p.head<5>());
+    const double by_distance = light.slope + shape(shape_terms - 1) / shape_length;
+    const double shape_by_cosine = shape.dot(by_cosine);
+    e.gradient << by_distance * seen.distance_by_place + shape_by_cosine * seen.cosine_by_place +
+                      c.segment<3>(1),
+        c.tail<2>() + shape_by_cosine * turn * seen.cosine_by_direction, 0, 1;
     if (module.bin_count() > 1) {
       double high = module.profile.total(), high_shifted = high, high_density = 0;
       if (b < module.edges.size()) {
@@ -59,7 +64,7 @@ void Emulator::evaluate_module(const ModuleLight& module, std::size_t first_bin,
       const double shifted = high_shifted - low_shifted + profile_floor;
       const double slope = -(high_density - low_density) / shifted;  // d ln(share) / d later
       e.log_mean += std::log(shifted / (high - low + profile_floor));
-      e.gradient.head<3>() += slope * light_slowness() * outward;
+      e.gradient.head<3>() += slope * light_slowness() * seen.distance_by_place;
       e.gradient(5) = slope;
       low = high, low_shifted = high_shifted, low_density = high_density;
     }
@@ -74,10 +79,11 @@ void Emulator::evaluate_module(const ModuleLight& module, std::size_t first_bin,
 
 void Emulator::evaluate(const Vector7& p, std::vector<Evaluation>& result) const {
   result.resize(bins_.size());
-  const Vec3 centre = frame_.at(p).position;
+  const LightCentre at = frame_.at(p);
+  const LocalFrame::DirectionChange turn = frame_.direction_change(p);
   std::size_t first_bin = 0;
   for (const ModuleLight& module : modules_) {
-    evaluate_module(module, first_bin, p, centre, result);
+    evaluate_module(module, first_bin, p, at, turn, result);
     first_bin += module.bin_count();
   }
 }

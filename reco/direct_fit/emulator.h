@@ -19,9 +19,9 @@ struct EmulatorSettings {
 };
 
 // For every bin (module x Bayesian block) the expectation at local parameters p (see LocalFrame) is
-//   mu(p) = point light(p) exp(log light + c_0 + c . p_1..5) P(tau) / P(0) + noise,
-// with c from Poisson regressions over all simulations (see train), and P(tau) the share of the module's
-// light in the bin when it arrives later by tau = p_6 + slowness x (change of distance), from the
+//   mu(p) = point light(p) exp(shape(p) + p_7 + c_0 + c . p_1..5) P(tau) / P(0) + noise,
+// with a common shape and c from regressions over all simulations (see train), and P(tau) the share of the
+// module's light in the bin when it arrives later by tau = p_6 + slowness x (change of distance), from the
 // simulations' arrival times together.
 class Emulator {
  public:
@@ -51,7 +51,8 @@ class Emulator {
   Matrix7 information(const Vector7& p) const;
 
  private:
-  void evaluate_module(const ModuleLight& module, std::size_t first_bin, const Vector7& p, const Vec3& centre,
+  void evaluate_module(const ModuleLight& module, std::size_t first_bin, const Vector7& p,
+                       const LightCentre& at, const LocalFrame::DirectionChange& turn,
                        std::vector<Evaluation>& result) const;
   double noise_counts(const ModuleLight& module, std::size_t bin) const;
 

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace floe {
 namespace {
 
 constexpr double profile_step = 5;      // of arrival profiles [ns]
 constexpr double profile_margin = 150;  // beyond the outermost inner edges [ns]
+constexpr double lent_counts = 300;     // of the profile that similar modules have in common
 constexpr double shell_width = 25;      // of the shells in which the point light's brightness is learnt [m]
 constexpr std::size_t shells = 40;
 constexpr int evidence_rounds = 4;
@@ -23,7 +25,7 @@ std::size_t shell_of(double distance) {
 struct SampleView {
   const LightSample* sample;
   Coordinates place;
-  Vec3 centre;
+  LightCentre light;
   double delay;   // from the vertex time to the light centre's [ns]
   double offset;  // ln(light of all repeats, relative to the origin's cascade)
 };
@@ -34,7 +36,7 @@ std::vector<SampleView> view(std::span<const LightSample* const> samples, const 
   for (const LightSample* sample : samples) {
     const LightCentre light = light_centre(sample->cascade, kind);
     const Vector7 local = frame.of(light);
-    views.push_back({sample, local.head<5>(), light.position, light.time - sample->cascade.time,
+    views.push_back({sample, local.head<5>(), light, light.time - sample->cascade.time,
                      std::log(sample->repeats) + local(6)});
   }
   return views;
@@ -85,23 +87,28 @@ class EvidenceSum {
 
 // The counts of one module in all simulations.
 struct ModuleCounts {
-  std::vector<RegressionPoint> points;    // one a simulation
+  std::vector<RegressionPoint> points;    // one a simulation; offsets of the point light
+  std::vector<double> offsets;            // the same offsets
+  std::vector<ShapeTerms> terms;          // one a simulation, less those of the origin
   std::vector<double> whole;              // counts of all times
   std::vector<std::vector<double>> bins;  // [bin][simulation]; empty with one bin
+  std::vector<double> mean_times;         // of each bin's light, after the direct light [ns]
   Regression whole_fit;
 };
 
-ModuleCounts count(ModuleLight& module, std::span<const SampleView> samples) {
+ModuleCounts count(ModuleLight& module, std::span<const SampleView> samples, const ArrivalProfile& empty) {
   ModuleCounts counts;
   if (module.bin_count() > 1) {
-    module.profile = ArrivalProfile(module.edges.front() - profile_margin,
-                                    module.edges.back() + profile_margin, profile_step);
+    module.profile = empty;
     counts.bins.assign(module.bin_count(), {});
+    counts.mean_times.assign(module.bin_count(), 0);
   }
   for (const SampleView& view : samples) {
-    const double distance = soft_distance(view.centre - module.position);
-    const double delay = view.delay + light_slowness() * distance;
-    counts.points.push_back({view.place, view.offset + point_light(distance, module.ice).log_light});
+    const Sight seen = sight(view.light.position, view.light.direction, module.position);
+    const double delay = view.delay + light_slowness() * seen.distance;
+    counts.terms.push_back(terms_of(seen) - module.origin_terms);
+    counts.offsets.push_back(view.offset + point_light(seen.distance, module.ice).log_light);
+    counts.points.push_back({view.place, counts.offsets.back()});
     counts.whole.push_back(double(view.sample->count(module.index)));
     if (module.bin_count() == 1) continue;
 
@@ -112,11 +119,53 @@ ModuleCounts count(ModuleLight& module, std::span<const SampleView> samples) {
       if (b < module.edges.size())
         to = std::lower_bound(from, end, static_cast<float>(module.edges[b] + delay));
       counts.bins[b].push_back(double(to - from));
-      from = to;
+      for (; from != to; ++from) counts.mean_times[b] += *from - delay;
     }
   }
-  module.profile.close();
+  for (std::size_t b = 0; b < counts.bins.size(); ++b)
+    counts.mean_times[b] /= std::max(1.0, std::accumulate(counts.bins[b].begin(), counts.bins[b].end(), 0.0));
   return counts;
+}
+
+// Bins that share a shape: of modules at similar distances, of all times (0) or of light that came at similar
+// times after the direct light.
+constexpr std::array<double, 6> shape_distances{30, 60, 100, 160, 250, 1e9};  // upper ends [m]
+constexpr std::array<double, 4> shape_times{30, 100, 250, 1e9};               // upper ends [ns]
+constexpr std::size_t shape_classes = shape_distances.size() * (1 + shape_times.size());
+
+std::size_t shape_class(double distance, std::size_t time_class) {
+  std::size_t k = 0;
+  while (k + 1 < shape_distances.size() && distance > shape_distances[k]) ++k;
+  return k * (1 + shape_times.size()) + time_class;
+}
+std::size_t time_class(double time) {
+  std::size_t k = 0;
+  while (k + 1 < shape_times.size() && time > shape_times[k]) ++k;
+  return 1 + k;
+}
+
+// The shapes of all classes; those of all times in class 0 of a distance.
+std::vector<ShapeTerms> fit_shapes(std::span<const ModuleLight> modules, std::span<const ModuleCounts> counts,
+                                   int threads) {
+  std::vector<std::vector<ShapeUnit>> units(shape_classes);
+  for (std::size_t i = 0; i < modules.size(); ++i) {
+    units[shape_class(modules[i].distance, 0)].push_back(
+        {counts[i].terms, counts[i].offsets, counts[i].whole});
+    for (std::size_t b = 0; b < counts[i].bins.size(); ++b)
+      units[shape_class(modules[i].distance, time_class(counts[i].mean_times[b]))].push_back(
+          {counts[i].terms, counts[i].offsets, counts[i].bins[b]});
+  }
+  std::vector<ShapeTerms> shapes(shape_classes);
+#pragma omp parallel for schedule(dynamic) num_threads(threads)
+  for (std::size_t k = 0; k < shape_classes; ++k) shapes[k] = fit_shape(units[k]);
+  return shapes;
+}
+
+// The regression's points with a shape in their offsets.
+std::vector<RegressionPoint> with_shape(const ModuleCounts& counts, const ShapeTerms& shape) {
+  std::vector<RegressionPoint> points = counts.points;
+  for (std::size_t k = 0; k < points.size(); ++k) points[k].offset += shape.dot(counts.terms[k]);
+  return points;
 }
 
 // ln(brightness of the point light) in shells of distance; each shell leans on the one before it.
@@ -171,6 +220,38 @@ void fit_with_evidence(std::span<const ModuleLight> modules, int threads, Fit fi
   }
 }
 
+// A profile for the times of all modules' edges.
+ArrivalProfile empty_profile(std::span<const ModuleLight> modules) {
+  double low = 0, high = 500;
+  for (const ModuleLight& module : modules)
+    for (const double edge : module.edges) low = std::min(low, edge), high = std::max(high, edge);
+  return {std::max(low, -500.0) - profile_margin, std::min(high, 3000.0) + profile_margin, profile_step};
+}
+
+// A profile of few counts is all noise in its density, and noise in a dependence passes for information:
+// every profile is blended with that of all modules at similar distances and angles to the cascade.
+void blend_profiles(std::vector<ModuleLight>& modules, std::span<const ModuleCounts> counts,
+                    const ArrivalProfile& empty) {
+  constexpr std::size_t angles = 3;
+  std::vector<ArrivalProfile> common(shells * angles, empty);
+  std::vector<double> total(common.size(), 0);
+  const auto group = [](const ModuleLight& module) {
+    const double cosine = module.origin_terms(0);  // P1
+    return shell_of(module.distance) * angles + (cosine < -0.3 ? 0 : cosine < 0.3 ? 1 : 2);
+  };
+  for (std::size_t i = 0; i < modules.size(); ++i) {
+    if (modules[i].bin_count() == 1) continue;
+    common[group(modules[i])].add(modules[i].profile, 1);
+    total[group(modules[i])] += std::accumulate(counts[i].whole.begin(), counts[i].whole.end(), 0.0);
+  }
+  for (ModuleLight& module : modules) {
+    if (module.bin_count() == 1) continue;
+    const std::size_t k = group(module);
+    module.profile.add(common[k], lent_counts / std::max(total[k], 1.0));
+    module.profile.close();
+  }
+}
+
 std::vector<ModuleLight> list_modules(const EventData& data, const MeanIce& ice, const LightCentre& origin) {
   std::vector<ModuleLight> modules;
   const auto add = [&](std::uint32_t index, const ModuleData* lit) {
@@ -180,7 +261,9 @@ std::vector<ModuleLight> list_modules(const EventData& data, const MeanIce& ice,
     module.position = data.detector().modules()[index].position;
     module.ice = ice.between(origin.position.z(), module.position.z());
     module.distance = soft_distance(origin.position - module.position);
+    module.origin_terms = terms_of(sight(origin.position, origin.direction, module.position));
     module.bins.resize(module.bin_count());
+    module.shapes.resize(module.bin_count());
     if (lit) module.edges = lit->edges;
     for (double& edge : module.edges) edge -= origin.time + light_slowness() * module.distance;
     modules.push_back(std::move(module));
@@ -198,15 +281,25 @@ std::vector<ModuleLight> train(const EventData& data, const MeanIce& ice, const 
   std::vector<ModuleLight> modules = list_modules(data, ice, frame.origin());
   std::vector<ModuleCounts> counts(modules.size());
   const std::vector<SampleView> views = view(samples, frame, kind);
+  const ArrivalProfile empty = empty_profile(modules);
 #pragma omp parallel for schedule(dynamic, 16) num_threads(threads)
-  for (std::size_t i = 0; i < modules.size(); ++i) counts[i] = count(modules[i], views);
+  for (std::size_t i = 0; i < modules.size(); ++i) counts[i] = count(modules[i], views, empty);
+  blend_profiles(modules, counts, empty);
+
+  const std::vector<ShapeTerms> shapes = fit_shapes(modules, counts, threads);
+  const auto whole_shape = [&](std::size_t i) { return shapes[shape_class(modules[i].distance, 0)]; };
+  for (std::size_t i = 0; i < modules.size(); ++i) {
+    modules[i].shapes[0] = whole_shape(i);
+    for (std::size_t b = 0; b < counts[i].bins.size(); ++b)
+      modules[i].shapes[b] = shapes[shape_class(modules[i].distance, time_class(counts[i].mean_times[b]))];
+  }
 
   const std::vector<double> log_brightness = brightness(modules, counts);
   fit_with_evidence(
       modules, threads,
       [&](std::size_t i, const SlopeSpread& spread) {
-        counts[i].whole_fit =
-            fit_poisson(counts[i].points, counts[i].whole, module_prior(modules[i], log_brightness, spread));
+        counts[i].whole_fit = fit_poisson(with_shape(counts[i], whole_shape(i)), counts[i].whole,
+                                          module_prior(modules[i], log_brightness, spread));
       },
       [&](std::size_t i, const SlopeSpread& spread, EvidenceSum& sum) {
         sum.add(counts[i].whole_fit, module_prior(modules[i], log_brightness, spread).mean, spread);
@@ -214,13 +307,14 @@ std::vector<ModuleLight> train(const EventData& data, const MeanIce& ice, const 
   fit_with_evidence(
       modules, threads,
       [&](std::size_t i, const SlopeSpread& spread) {
-        if (modules[i].bin_count() == 1) {
-          modules[i].bins[0] = counts[i].whole_fit;
+        ModuleLight& module = modules[i];
+        if (module.bin_count() == 1) {
+          module.bins[0] = counts[i].whole_fit;
           return;
         }
-        const RegressionPrior prior = bin_prior(modules[i], counts[i].whole_fit, spread);
-        for (std::size_t b = 0; b < modules[i].bin_count(); ++b)
-          modules[i].bins[b] = fit_poisson(counts[i].points, counts[i].bins[b], prior);
+        const RegressionPrior prior = bin_prior(module, counts[i].whole_fit, spread);
+        for (std::size_t b = 0; b < module.bin_count(); ++b)
+          module.bins[b] = fit_poisson(with_shape(counts[i], module.shapes[b]), counts[i].bins[b], prior);
       },
       [&](std::size_t i, const SlopeSpread& spread, EvidenceSum& sum) {
         if (modules[i].bin_count() == 1) return;

@@ -32,6 +32,17 @@ Vector7 LocalFrame::of(const LightCentre& light) const {
   return local;
 }
 
+LocalFrame::DirectionChange LocalFrame::direction_change(const Vector7& local) const {
+  const double a = std::hypot(local(3), local(4));
+  const double sinc = a > 1e-6 ? std::sin(a) / a : 1;
+  const double bend = a > 1e-3 ? (std::cos(a) - sinc) / (a * a) : -1.0 / 3;  // (d sinc / d a) / a
+  const Vec3 tangent = local(3) * axis1_ + local(4) * axis2_;
+  DirectionChange change;
+  change.row(0) = local(3) * (bend * tangent - sinc * origin_.direction) + sinc * axis1_;
+  change.row(1) = local(4) * (bend * tangent - sinc * origin_.direction) + sinc * axis2_;
+  return change;
+}
+
 Matrix7 LocalFrame::jacobian(const Vector7& local, CascadeKind kind) const {
   const Vector7 step = (Vector7() << 0.01, 0.01, 0.01, 1e-4, 1e-4, 0.01, 1e-4).finished();
   Matrix7 result;

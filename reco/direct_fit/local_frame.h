@@ -16,6 +16,10 @@ class LocalFrame {
   LightCentre at(const Vector7& local) const;
   Vector7 of(const LightCentre& light) const;
 
+  // d direction / d (fourth and fifth local number), a row each.
+  using DirectionChange = Eigen::Matrix<double, 2, 3>;
+  DirectionChange direction_change(const Vector7& local) const;
+
   // Jacobian of (x, y, z, t, zenith, azimuth, energy) with respect to the local numbers, at `local`.
   Matrix7 jacobian(const Vector7& local, CascadeKind kind) const;
 
