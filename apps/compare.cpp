@@ -100,8 +100,8 @@ std::string comparison_table(const ModelComparison& comparison) {
   const auto with_error = [](double value, double error, int digits) {
     return fmt::format("{:.{}f} +- {:.{}f}", value, digits, error, digits);
   };
-  table.add({"  -ln L", with_error(a.neg_llh, a.neg_llh_error, 1), with_error(b.neg_llh, b.neg_llh_error, 1),
-             with_error(comparison.delta_neg_llh, comparison.delta_neg_llh_error, 1)});
+  table.add(
+      {"  -ln L", with_error(a.neg_llh, a.neg_llh_error, 1), with_error(b.neg_llh, b.neg_llh_error, 1), ""});
   table.add({"  degrees of freedom", fmt::format("{:.0f}", a.ndof), fmt::format("{:.0f}", b.ndof), ""});
   table.add({"  p value", fmt::format("{:.2g}", a.p_value), fmt::format("{:.2g}", b.p_value), ""});
   for (const ParameterRow& row : parameter_rows(a, b))
@@ -113,12 +113,12 @@ std::string comparison_table(const ModelComparison& comparison) {
 
 std::string verdict(const ModelComparison& comparison) {
   // Three standard errors of the finite simulations.
-  const double delta = comparison.delta_neg_llh;
-  if (!(std::abs(delta) > 3 * comparison.delta_neg_llh_error))
-    return "The simulations do not tell which model describes the event better (less than 3 standard "
-           "errors).";
-  return fmt::format("{} describes the event better: -ln L is lower by {:.1f} +- {:.1f}.",
-                     delta > 0 ? "A" : "B", std::abs(delta), comparison.delta_neg_llh_error);
+  const double delta = comparison.delta_neg_llh, error = comparison.delta_neg_llh_error;
+  const std::string measured =
+      fmt::format("With equal simulations of both fits, -ln L of B - A is {:.1f} +- {:.1f}: ", delta, error);
+  if (!(std::abs(delta) > 3 * error))
+    return measured + "this does not tell which model describes the event better.";
+  return measured + fmt::format("{} describes the event better.", delta > 0 ? "A" : "B");
 }
 
 void print_comparison(const ModelComparison& comparison, const std::array<ModelRequest, 2>& requests) {
@@ -190,8 +190,8 @@ void run_compare(const CompareOptions& options) {
     if (comparison.usable())
       pictures[i]->write(picture_of(comparison, requests));
     else
-      failures += fmt::format("{}event {}: no comparison, as a fit has no result",
-                              failures.empty() ? "" : "\n", events[i].id);
+      failures += fmt::format("{}event {}: no comparison: {}", failures.empty() ? "" : "\n", events[i].id,
+                              results["events"].back()["reason"].get<std::string>());
   }
   json.write(json_text(results));
   json.commit();
