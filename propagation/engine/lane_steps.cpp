@@ -53,78 +53,76 @@ void draw_scattering_depths(Lanes& lanes) {
   for (int i = 0; i < N; ++i) lanes.scattering_depth[i] = -std::log(draw(lanes, i));
 }
 
-void find_segments(const IceView& ice, Lanes& lanes) {
-  const float* scattering_constant = ice.scattering_constant.data();
-  const float* scattering_power = ice.scattering_power.data();
-  const float* absorption_dust = ice.absorption_dust.data();
-  const float* absorption_thermal = ice.absorption_thermal.data();
-  const float* diffusion = ice.diffusion.data();
-  const float* deflection = ice.deflection.data();
-  const int last = ice.last_layer;
-  const float step = ice.step;
+namespace {
 
-  const float bottom_of_top = static_cast<float>(last);
+struct LayerTables {
+  const float *scattering_constant, *scattering_power, *absorption_dust, *absorption_thermal, *diffusion,
+      *deflection;
+  int last;
+};
+
+// Takes one lane's segment through its layer: as far as the scatter, the absorption or the layer's boundary,
+// which is `reach` metres away. A lane that is not going (0) stays as it is; one that goes on into the next
+// layer (1) has it in lanes.layer.
+inline std::int32_t through_layer(const LayerTables& tables, Lanes& lanes, int i, float factor, float reach,
+                                  std::int32_t going) {
+  const int layer = lanes.layer[i];
+  const float scattering =
+      tables.scattering_constant[layer] + tables.scattering_power[layer] * lanes.scattering_power[i];
+  const float absorption = factor * (tables.absorption_dust[layer] * lanes.absorption_dust[i] +
+                                     tables.absorption_thermal[layer] * lanes.absorption_thermal[i]);
+  const float to_scatter = larger(0, lanes.scattering_depth[i]) / scattering;
+  const float to_absorb = larger(0, lanes.absorption_depth[i]) / absorption;
+  const int next = layer + (lanes.nz[i] > 0 ? 1 : -1);
+  const float above_bottom = next < 0 ? endless : reach;
+  const float to_boundary = next > tables.last ? endless : above_bottom;
+  const float shortest = smaller(smaller(to_scatter, to_absorb), to_boundary);
+  const float length = going != 0 ? shortest : 0;
+  lanes.length[i] += length;
+  lanes.diffusion[i] += length * tables.diffusion[layer];
+  lanes.deflection[i] += length * tables.deflection[layer];
+  lanes.scattering_depth[i] -= length * scattering;
+  lanes.absorption_depth[i] -= length * absorption;
+  lanes.absorbed[i] = to_absorb <= to_scatter ? 1 : 0;
+  const std::int32_t crosses = to_boundary <= length ? going : 0;
+  lanes.layer[i] = crosses != 0 ? next : layer;
+  return crosses;
+}
+
+}  // namespace
+
+void find_segments(const IceView& ice, Lanes& lanes) {
+  const LayerTables tables{ice.scattering_constant.data(),
+                           ice.scattering_power.data(),
+                           ice.absorption_dust.data(),
+                           ice.absorption_thermal.data(),
+                           ice.diffusion.data(),
+                           ice.deflection.data(),
+                           ice.last_layer};
+  const float step = ice.step, lowest_of_top = static_cast<float>(ice.last_layer);
+  alignas(64) float reach[N], through[N];  // to the boundary of the first layer; through a whole layer [m]
 #pragma omp simd
   for (int i = 0; i < N; ++i) {
-    const float inside = smaller(larger(lanes.height[i], 0), bottom_of_top);
-    lanes.layer[i] = static_cast<std::int32_t>(inside);
+    lanes.layer[i] = static_cast<std::int32_t>(smaller(larger(lanes.height[i], 0), lowest_of_top));
+    const float slope = slope_of(lanes.nz[i]);
+    const float boundary = static_cast<float>(lanes.layer[i] + (slope > 0 ? 1 : 0));
+    through[i] = step / std::fabs(slope);
+    reach[i] = larger(0, (boundary - lanes.height[i]) * step / slope);
+    lanes.length[i] = 0;
+    lanes.diffusion[i] = 0;
+    lanes.deflection[i] = 0;
   }
   alignas(64) float factor[N];
   anisotropic_absorption(ice, lanes, factor);
 
-  // What is left for the following layers, for lanes that leave the first one.
-  alignas(64) std::int32_t crosses[N];
+  // Nearly all segments end in their first or second layer; the others go on one at a time.
+  alignas(64) std::int32_t going[N];
 #pragma omp simd
-  for (int i = 0; i < N; ++i) {
-    const int layer = lanes.layer[i];
-    const float scattering = scattering_constant[layer] + scattering_power[layer] * lanes.scattering_power[i];
-    const float absorption = factor[i] * (absorption_dust[layer] * lanes.absorption_dust[i] +
-                                          absorption_thermal[layer] * lanes.absorption_thermal[i]);
-    const float to_scatter = lanes.scattering_depth[i] / scattering;
-    const float to_absorb = lanes.absorption_depth[i] / absorption;
-    const float slope = slope_of(lanes.nz[i]);
-    const int up = slope > 0 ? 1 : 0;
-    const int next = layer + 2 * up - 1;
-    const float boundary = static_cast<float>(layer + up);
-    const float reach = larger(0, (boundary - lanes.height[i]) * step / slope);
-    const float above_bottom = next < 0 ? endless : reach;
-    const float to_boundary = next > last ? endless : above_bottom;
-    const float length = smaller(smaller(to_scatter, to_absorb), to_boundary);
-    lanes.length[i] = length;
-    lanes.diffusion[i] = length * diffusion[layer];
-    lanes.deflection[i] = length * deflection[layer];
-    lanes.scattering_depth[i] -= length * scattering;
-    lanes.absorption_depth[i] -= length * absorption;
-    crosses[i] = to_boundary <= length;
-    lanes.absorbed[i] = to_absorb <= to_scatter;
-  }
-
-  // Most segments end in their first layer; the others go on one at a time.
-  for (int i = 0; i < N; ++i) {
-    if (!crosses[i]) continue;
-    const float slope = slope_of(lanes.nz[i]);
-    const int next = slope > 0 ? 1 : -1;
-    const float through = step / std::fabs(slope);
-    int layer = lanes.layer[i] + next;
-    for (;; layer += next) {
-      const float scattering =
-          scattering_constant[layer] + scattering_power[layer] * lanes.scattering_power[i];
-      const float absorption = factor[i] * (absorption_dust[layer] * lanes.absorption_dust[i] +
-                                            absorption_thermal[layer] * lanes.absorption_thermal[i]);
-      const float to_scatter = larger(0, lanes.scattering_depth[i]) / scattering;
-      const float to_absorb = larger(0, lanes.absorption_depth[i]) / absorption;
-      const bool outermost = next > 0 ? layer == last : layer == 0;
-      const float length = smaller(smaller(to_scatter, to_absorb), outermost ? endless : through);
-      lanes.length[i] += length;
-      lanes.diffusion[i] += length * diffusion[layer];
-      lanes.deflection[i] += length * deflection[layer];
-      lanes.scattering_depth[i] -= length * scattering;
-      lanes.absorption_depth[i] -= length * absorption;
-      lanes.absorbed[i] = to_absorb <= to_scatter;
-      if (outermost || length < through) break;
-    }
-    lanes.layer[i] = layer;
-  }
+  for (int i = 0; i < N; ++i) going[i] = through_layer(tables, lanes, i, factor[i], reach[i], 1);
+#pragma omp simd
+  for (int i = 0; i < N; ++i) going[i] = through_layer(tables, lanes, i, factor[i], through[i], going[i]);
+  for (int i = 0; i < N; ++i)
+    while (going[i] != 0) going[i] = through_layer(tables, lanes, i, factor[i], through[i], 1);
 }
 
 void find_reach(const ClearanceMap::View& clearance, Lanes& lanes) {

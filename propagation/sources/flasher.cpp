@@ -35,11 +35,11 @@ Vec3f isotropic_direction(RandomStream& random) {
   return {sine * turn.cosine, sine * turn.sine, cosine};
 }
 
-// von Mises-Fisher about `axis`: 1 - cos = -w ln(1 - u (1 - exp(-2/w))), w = width^2 [rad^2].
-Vec3f beam_direction(const Vec3f& axis, double width, RandomStream& random) {
-  if (width == 0) return axis;
-  const auto w = static_cast<float>(width * width);
-  const float one_minus_cos = -w * std::log1p(-random.uniform() * -std::expm1(-2 / w));
+// von Mises-Fisher about `axis`: 1 - cos = -w ln(u + (1 - u) exp(-2/w)), w = width^2 [rad^2].
+Vec3f beam_direction(const Vec3f& axis, float w, RandomStream& random) {
+  if (w == 0) return axis;
+  const float u = random.uniform();
+  const float one_minus_cos = -w * std::log(u + (1 - u) * std::exp(-2 / w));
   return deflect(axis, std::clamp(one_minus_cos, 0.0f, 2.0f), random.uniform());
 }
 
@@ -77,7 +77,8 @@ EmittedPhoton FlasherSource::emit(RandomStream& random) const {
       const auto turn = turn_functions(random.uniform());
       led = {led_.x() * turn.cosine, led_.x() * turn.sine, led_.z()};
     }
-    photon.direction = beam_direction(led, settings_.beam_width, random);
+    photon.direction =
+        beam_direction(led, static_cast<float>(settings_.beam_width * settings_.beam_width), random);
   }
   photon.position = centre_ + static_cast<float>(module_radius) * photon.direction;
   photon.time = static_cast<float>(settings_.time + module_radius / speed_of_light);
