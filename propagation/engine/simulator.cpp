@@ -30,6 +30,20 @@ std::uint64_t number_to_draw(double expected, const SimulationOptions& options) 
   return std::poisson_distribution<std::uint64_t>(expected)(random);
 }
 
+// The batches of a shard: the parts follow each other, so that their hits do, too.
+struct BatchRange {
+  std::int64_t first, end;
+};
+BatchRange batches_of(std::uint64_t photons, const Shard& shard) {
+  if (!(shard.index >= 1 && shard.index <= shard.count && shard.count <= 1000000))
+    throw UsageError(fmt::format("a shard is k of K with 1 <= k <= K <= 1000000, found {} of {}", shard.index,
+                                 shard.count));
+  const std::uint64_t batches = (photons + batch_size - 1) / batch_size;
+  const std::uint64_t each = batches / shard.count, left = batches % shard.count;
+  const auto start = [&](std::uint64_t parts) { return parts * each + std::min(parts, left); };
+  return {static_cast<std::int64_t>(start(shard.index - 1)), static_cast<std::int64_t>(start(shard.index))};
+}
+
 }  // namespace
 
 Hit to_hit(const SimulatedHit& hit, const Detector& detector) {
@@ -70,13 +84,13 @@ SimulationSummary Simulator::run(const Source& source, const SimulationOptions& 
                                  const Progress& progress) const {
   const auto start = std::chrono::steady_clock::now();
   const std::uint64_t photons = number_to_draw(options.scale * photons_to_propagate(source), options);
-  const auto batches = static_cast<std::int64_t>((photons + batch_size - 1) / batch_size);
+  const auto [first_batch, end_batch] = batches_of(photons, options.shard);
   const int threads = options.threads > 0 ? options.threads : omp_get_num_procs();
   SimulationSummary summary;
   std::exception_ptr failure;
 
 #pragma omp parallel for schedule(dynamic) ordered num_threads(threads)
-  for (std::int64_t b = 0; b < batches; ++b) {
+  for (std::int64_t b = first_batch; b < end_batch; ++b) {
     const std::uint64_t first = static_cast<std::uint64_t>(b) * batch_size;
     const PhotonBatch batch{options.seed, options.stream, first,
                             static_cast<std::uint32_t>(std::min<std::uint64_t>(batch_size, photons - first))};
@@ -100,7 +114,8 @@ SimulationSummary Simulator::run(const Source& source, const SimulationOptions& 
           summary.hits += hits.size();
           if (!hits.empty()) sink(hits);
           if (progress)
-            progress(static_cast<double>(b + 1) / static_cast<double>(batches), "propagating photons");
+            progress(static_cast<double>(b + 1 - first_batch) / static_cast<double>(end_batch - first_batch),
+                     "propagating photons");
         }
       } catch (...) {
         if (!failure) failure = std::current_exception();

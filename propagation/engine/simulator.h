@@ -26,12 +26,18 @@ Hit to_hit(const SimulatedHit& hit, const Detector& detector);
 // Receives hits in the order of the photons, in portions; called from one thread at a time.
 using HitSink = std::function<void(std::span<const SimulatedHit>)>;
 
+// Part k of K of a run: together the parts have exactly the photons, and hits, of the whole.
+struct Shard {
+  std::uint64_t index = 1, count = 1;  // 1 <= index <= count
+};
+
 struct SimulationOptions {
   std::uint64_t seed = 1;
   std::uint64_t stream = 0;   // sources with different streams are independent
   int threads = 0;            // 0: all cores
   double scale = 1;           // light of this many repetitions of the source
   bool fixed_number = false;  // propagate the expected number, rounded, instead of a Poisson draw
+  Shard shard;
 };
 
 struct SimulationSummary {

@@ -84,6 +84,26 @@ TEST_F(SimulatorTest, GivesTheSameHitsForAnyNumberOfThreads) {
   }
 }
 
+TEST_F(SimulatorTest, ShardsTogetherAreTheWholeRun) {
+  SimulationOptions options;
+  options.scale = 30;
+  const auto whole = hits(options);
+  for (const std::uint64_t count : {2, 3, 40}) {
+    std::vector<SimulatedHit> together;
+    for (std::uint64_t index = 1; index <= count; ++index) {
+      options.shard = {index, count};
+      const auto part = hits(options);
+      together.insert(together.end(), part.begin(), part.end());
+    }
+    ASSERT_EQ(whole.size(), together.size());
+    for (std::size_t i = 0; i < whole.size(); ++i) ASSERT_TRUE(same(whole[i], together[i])) << i;
+  }
+  for (const Shard wrong : {Shard{0, 2}, Shard{3, 2}, Shard{1, 0}}) {
+    options.shard = wrong;
+    EXPECT_THROW(hits(options), UsageError);
+  }
+}
+
 TEST_F(SimulatorTest, SeedsAndStreamsAreIndependent) {
   SimulationOptions options;
   const auto first = hits(options);
