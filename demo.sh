@@ -2,6 +2,7 @@
 # Installs what is missing, builds floe, and does its main job once on built-in ice and detector:
 # simulate a cascade in birefringent ice, fit it with and without birefringence, compare.
 set -euo pipefail
+# shellcheck source=scripts/setup.sh
 source "$(dirname "${BASH_SOURCE[0]}")/scripts/setup.sh"
 
 floe_install_packages

@@ -3,6 +3,7 @@
 #   ./test.sh -L unit        one label: unit, physics, regression or app
 #   ./test.sh -R detector    tests whose name matches
 set -euo pipefail
+# shellcheck source=scripts/setup.sh
 source "$(dirname "${BASH_SOURCE[0]}")/scripts/setup.sh"
 
 started=$SECONDS

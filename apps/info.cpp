@@ -74,6 +74,12 @@ void print_lines(const std::string& title, const std::vector<SummaryLine>& lines
   fmt::print("\n");
 }
 
+// A length with about three digits.
+std::string length(double metres) {
+  if (metres < 0.1) return fmt::format("{:.2g}", metres);
+  return fmt::format("{:.{}f}", metres, metres < 10 ? 2 : metres < 100 ? 1 : 0);
+}
+
 void print_table(const IceModel& ice, const InfoOptions& options) {
   fmt::print(
       "Ice at {:g} nm, all in m but the strength of birefringence; scattering lengths are effective: of "
@@ -82,9 +88,8 @@ void print_table(const IceModel& ice, const InfoOptions& options) {
   TextTable table({"  depth", "z", "scattering", "without crystals", "absorption", "birefringence"});
   for (const DepthRow& row : depth_rows(ice, options.wavelength, options.step))
     table.add({fmt::format("{:7.1f}", row.depth), fmt::format("{:.1f}", origin_depth - row.depth),
-               fmt::format("{:.3g}", row.effective_scattering_length),
-               fmt::format("{:.3g}", row.mie_scattering_length), fmt::format("{:.3g}", row.absorption_length),
-               fmt::format("{:.2f}", row.birefringence_strength)});
+               length(row.effective_scattering_length), length(row.mie_scattering_length),
+               length(row.absorption_length), fmt::format("{:.2f}", row.birefringence_strength)});
   fmt::print("{}", table.str());
 }
 
