@@ -18,3 +18,6 @@ find_path(XXHASH_INCLUDE_DIR xxhash.h REQUIRED)            # libxxhash-dev (head
 if(FLOE_BUILD_TESTS)
   find_package(GTest REQUIRED)                             # libgtest-dev
 endif()
+if(FLOE_BUILD_BENCHMARKS)
+  find_package(benchmark REQUIRED)                         # libbenchmark-dev
+endif()

@@ -1,0 +1,136 @@
+#include "bench/sampling_profile.h"
+
+#include <dlfcn.h>
+#include <sys/time.h>
+#include <ucontext.h>
+
+#include <atomic>
+#include <csignal>
+#include <memory>
+#include <string_view>
+
+#include "bench/program_symbols.h"
+
+namespace floe {
+
+namespace {
+
+constexpr std::size_t most_samples = 1u << 20;  // a quarter of an hour
+constexpr suseconds_t interval = 997;           // [us]; prime, to keep out of step with the work
+
+// Handlers of signals take no arguments of ours. The stack is not looked at: what compilers tell about it
+// does not hold at every instruction of vector code.
+void** samples = nullptr;
+std::atomic<std::size_t> taken{0};
+
+void take_sample(int, siginfo_t*, void* context) {
+  const std::size_t i = taken.load(std::memory_order_relaxed);
+  if (i == most_samples) return;
+#if defined(__x86_64__)
+  samples[i] = reinterpret_cast<void*>(static_cast<ucontext_t*>(context)->uc_mcontext.gregs[REG_RIP]);
+#elif defined(__aarch64__)
+  samples[i] = reinterpret_cast<void*>(static_cast<ucontext_t*>(context)->uc_mcontext.pc);
+#else
+#error "tell here where this processor keeps its place in the program"
+#endif
+  taken.store(i + 1, std::memory_order_relaxed);
+}
+
+void set_timer(suseconds_t microseconds) {
+  itimerval timer{};
+  timer.it_interval.tv_usec = timer.it_value.tv_usec = microseconds;
+  setitimer(ITIMER_REAL, &timer, nullptr);
+}
+
+class TimerInterrupts {
+ public:
+  TimerInterrupts() {
+    struct sigaction action {};
+    action.sa_sigaction = take_sample;
+    action.sa_flags = SA_RESTART | SA_SIGINFO;
+    sigaction(SIGALRM, &action, &before_);
+    set_timer(interval);
+  }
+  ~TimerInterrupts() {
+    set_timer(0);
+    sigaction(SIGALRM, &before_, nullptr);
+  }
+  TimerInterrupts(const TimerInterrupts&) = delete;
+  TimerInterrupts& operator=(const TimerInterrupts&) = delete;
+
+ private:
+  struct sigaction before_ {};
+};
+
+// A function of the program whose name contains `function`, or anything in a library whose file name
+// contains `library`. The first rule that fits counts.
+struct Rule {
+  const char* part;
+  std::string_view function, library;
+};
+constexpr const char* everything_else = "the walk itself: random streams, refill, hits";
+constexpr const char* lanes_end = "to the next scatter, birefringence, new direction";
+constexpr Rule rules[] = {
+    {"emission of photons", "::emit(", ""},
+    {"emission of photons", "floe::WavelengthSpectrum::", ""},
+    {"depth to the next scatter", "floe::draw_scattering_depths", ""},
+    {"layer tilt", "floe::LayerTilt::", ""},
+    {"walk through the layers", "floe::find_segments", ""},
+    {"walk through the layers", "::anisotropic_absorption(", ""},
+    {"walk through the layers", "::through_layer(", ""},
+    {"clearance of the modules", "floe::find_reach", ""},
+    {"the nearest module alone", "floe::cross_module", ""},
+    {"Embree", "", "libembree"},
+    {"Embree", "EmbreeFinder", ""},
+    {"acceptance by the module", "floe::PhotonAcceptance::", ""},
+    {"acceptance by the module", "floe::AngularAcceptance::", ""},
+    {lanes_end, "floe::advance_and_scatter", ""},
+    {lanes_end, "::advance(", ""},
+    {lanes_end, "::birefringent_step(", ""},
+    {lanes_end, "::stretch(", ""},
+    {lanes_end, "::scatter(", ""},
+    {"vector functions (log, exp) of the two above", "", "libmvec.so"},
+    {"scalar functions (log, pow), mostly of emission", "", "libm.so"},
+    {everything_else, "", ""},
+};
+
+const char* part_of(const void* address, const ProgramSymbols& symbols) {
+  const std::string function = symbols.function_at(address);
+  Dl_info info{};
+  const bool known = dladdr(address, &info) != 0 && info.dli_fname != nullptr;
+  const std::string_view library = known && function.empty() ? info.dli_fname : "";
+  for (const Rule& rule : rules)
+    if (function.find(rule.function) != std::string::npos &&
+        library.find(rule.library) != std::string_view::npos)
+      if (!rule.function.empty() || !rule.library.empty()) return rule.part;
+  return everything_else;
+}
+
+std::vector<ProfilePart> empty_parts() {
+  std::vector<ProfilePart> parts;
+  for (const Rule& rule : rules)
+    if (parts.empty() || parts.back().name != rule.part) parts.push_back({rule.part, 0});
+  return parts;
+}
+
+}  // namespace
+
+Profile profile_of(const std::function<void()>& work) {
+  const ProgramSymbols symbols;
+  const std::unique_ptr<void*[]> memory(new void*[most_samples]);
+  samples = memory.get();
+  taken = 0;
+  {
+    const TimerInterrupts interrupts;
+    work();
+  }
+  Profile profile{taken, empty_parts()};
+  for (std::size_t i = 0; i < profile.samples; ++i) {
+    const std::string_view part = part_of(samples[i], symbols);
+    for (ProfilePart& p : profile.parts)
+      if (p.name == part) p.share += 1.0 / static_cast<double>(profile.samples);
+  }
+  return profile;
+}
+
+}  // namespace floe
