@@ -125,7 +125,7 @@ void print_comparison(const ModelComparison& comparison, const std::array<ModelR
   fmt::print("event {}\n  A: {}\n  B: {}\n", comparison.event, model_label(requests[0]),
              model_label(requests[1]));
   if (!comparison.usable()) {
-    for (std::size_t i = 0; i < 2; ++i) fmt::print("Fit {}:\n{}\n", "AB"[i], describe(comparison.fits[i]));
+    for (std::size_t i = 0; i < 2; ++i) fmt::print("Fit {}: {}", "AB"[i], describe(comparison.fits[i]));
     return;
   }
   fmt::print("{}Vertices {:.2f} m apart, directions {:.1f} deg apart, energy of B / A {:.3f}.\n{}\n",

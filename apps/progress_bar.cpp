@@ -34,9 +34,9 @@ std::string progress_line(double fraction, const std::string& stage, double seco
   fraction = std::clamp(std::isfinite(fraction) ? fraction : 0.0, 0.0, 1.0);
   const int full = static_cast<int>(fraction * width);
   // Too early a guess is worse than none.
-  const std::string left = fraction > 0.02 ? duration(seconds * (1 - fraction) / fraction) + " left" : "";
-  const std::string line = fmt::format("[{}{}] {:3.0f}%  {}  {}", std::string(full, '='),
-                                       std::string(width - full, ' '), 100 * fraction, stage, left);
+  const std::string left = fraction > 0.02 ? duration(seconds * (1 - fraction) / fraction) + " left  " : "";
+  const std::string line = fmt::format("[{}{}] {:3.0f}%  {}{}", std::string(full, '='),
+                                       std::string(width - full, ' '), 100 * fraction, left, stage);
   return line.substr(0, std::max(0, columns - 1));
 }
 

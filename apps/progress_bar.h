@@ -28,7 +28,7 @@ class ProgressBar {
   Clock::time_point start_, last_drawn_;
 };
 
-// The line that the bar shows; `seconds` since the work began. At most `columns` wide.
+// The line that the bar shows, `seconds` after the work began. At most `columns` wide.
 std::string progress_line(double fraction, const std::string& stage, double seconds, int columns);
 
 }  // namespace floe

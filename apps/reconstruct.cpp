@@ -47,9 +47,11 @@ void run_reconstruct(const ReconstructOptions& options) {
       fit = fit_cascade(model, event, fit_options, bar.callback());
     }
     results["events"].push_back(event_json(event, fit));
+    if (fit.status == FitStatus::track_like)
+      fmt::print(stderr, "floe: warning: event {}: {}\n", event.id, fit.reason);
     if (!fit.usable())
       failures += fmt::format("{}event {}: {}", failures.empty() ? "" : "\n", event.id, fit.reason);
-    if (!options.output.quiet) fmt::print("event {}: {}\n", event.id, describe(fit));
+    if (!options.output.quiet) fmt::print("event {}: {}", event.id, describe(fit));
   }
   json.write(json_text(results));
   json.commit();

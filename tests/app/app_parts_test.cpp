@@ -67,8 +67,8 @@ TEST(HelpText, IsBrokenAtBlanks) {
 
 TEST(ProgressLine, ShowsStagePercentAndTimeLeft) {
   EXPECT_EQ(progress_line(0.25, "fitting", 30, 80),
-            "[======                  ]  25%  fitting  1:30 min left");
-  EXPECT_EQ(progress_line(0.5, "fitting", 3, 80), "[============            ]  50%  fitting  3 s left");
+            "[======                  ]  25%  1:30 min left  fitting");
+  EXPECT_EQ(progress_line(0.5, "fitting", 3, 80), "[============            ]  50%  3 s left  fitting");
 }
 
 TEST(ProgressLine, SaysNoTimeLeftTooEarlyAndNeverWraps) {
