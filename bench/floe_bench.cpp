@@ -90,6 +90,12 @@ Json measure_speed(const BenchOptions& options, const Case& c) {
   return result;
 }
 
+Json parts_json(const char* kind, const std::vector<ProfilePart>& parts) {
+  Json json = Json::array();
+  for (const ProfilePart& part : parts) json.push_back({{kind, part.name}, {"share", part.share}});
+  return json;
+}
+
 // Shares of time, with one thread.
 Json measure_profile(const BenchOptions& options, const Case& c) {
   return run_in_child([&] {
@@ -100,10 +106,9 @@ Json measure_profile(const BenchOptions& options, const Case& c) {
                run_photons(simulator, *source, options.photons,
                            options.seed + static_cast<std::uint64_t>(round), 1);
            });
-           Json parts = Json::array();
-           for (const ProfilePart& part : profile.parts)
-             parts.push_back({{"part", part.name}, {"share", part.share}});
-           return Json{{"samples", profile.samples}, {"parts", parts}};
+           return Json{{"samples", profile.samples},
+                       {"parts", parts_json("part", profile.parts)},
+                       {"functions", parts_json("function", profile.functions)}};
          })
       .result;
 }

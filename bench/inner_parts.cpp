@@ -31,7 +31,7 @@ namespace floe {
 namespace {
 
 constexpr double oversize = 5;
-constexpr const char* whole_step = "whole step without geometry";
+constexpr const char* whole_step = "whole step, modules out of reach";
 constexpr const char* time_each = "time";  // the counter: seconds for one lane, photon or question
 
 double seconds_between(std::chrono::steady_clock::time_point a, std::chrono::steady_clock::time_point b) {
@@ -170,6 +170,7 @@ class Bench {
     draw_scattering_depths(lanes);
     find_heights(model_.ice->tilt(), lanes);
     find_segments(view_, lanes);
+    find_reach(clearance_.view(), lanes);
     advance_and_scatter(view_, lanes);
   }
   void find_heights(const LayerTilt& tilt, Lanes& lanes) const {

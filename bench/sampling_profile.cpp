@@ -4,9 +4,12 @@
 #include <sys/time.h>
 #include <ucontext.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
+#include <map>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "bench/program_symbols.h"
@@ -72,7 +75,9 @@ constexpr const char* everything_else = "the walk itself: random streams, refill
 constexpr const char* lanes_end = "to the next scatter, birefringence, new direction";
 constexpr Rule rules[] = {
     {"emission of photons", "::emit(", ""},
+    {"emission of photons", "floe::deflect<", ""},
     {"emission of photons", "floe::WavelengthSpectrum::", ""},
+    {"emission of photons", "_distribution<", ""},
     {"depth to the next scatter", "floe::draw_scattering_depths", ""},
     {"layer tilt", "floe::LayerTilt::", ""},
     {"walk through the layers", "floe::find_segments", ""},
@@ -94,15 +99,23 @@ constexpr Rule rules[] = {
     {everything_else, "", ""},
 };
 
-const char* part_of(const void* address, const ProgramSymbols& symbols) {
-  const std::string function = symbols.function_at(address);
+// Where a sample was taken: a function of the program, else a library.
+struct Place {
+  std::string function, library;
+};
+Place place_of(const void* address, const ProgramSymbols& symbols) {
+  Place place{symbols.function_at(address), {}};
   Dl_info info{};
-  const bool known = dladdr(address, &info) != 0 && info.dli_fname != nullptr;
-  const std::string_view library = known && function.empty() ? info.dli_fname : "";
+  if (place.function.empty() && dladdr(address, &info) != 0 && info.dli_fname) place.library = info.dli_fname;
+  return place;
+}
+
+const char* part_of(const Place& place) {
+  const auto fits = [](const std::string& text, std::string_view wanted) {
+    return !wanted.empty() && text.find(wanted) != std::string::npos;
+  };
   for (const Rule& rule : rules)
-    if (function.find(rule.function) != std::string::npos &&
-        library.find(rule.library) != std::string_view::npos)
-      if (!rule.function.empty() || !rule.library.empty()) return rule.part;
+    if (fits(place.function, rule.function) || fits(place.library, rule.library)) return rule.part;
   return everything_else;
 }
 
@@ -124,12 +137,19 @@ Profile profile_of(const std::function<void()>& work) {
     const TimerInterrupts interrupts;
     work();
   }
-  Profile profile{taken, empty_parts()};
+  Profile profile{taken, empty_parts(), {}};
+  const double point = 1 / static_cast<double>(profile.samples);
+  std::map<std::string, double> functions;
   for (std::size_t i = 0; i < profile.samples; ++i) {
-    const std::string_view part = part_of(samples[i], symbols);
+    const Place place = place_of(samples[i], symbols);
+    functions[place.function.empty() ? place.library : place.function] += point;
+    const std::string_view part = part_of(place);
     for (ProfilePart& p : profile.parts)
-      if (p.name == part) p.share += 1.0 / static_cast<double>(profile.samples);
+      if (p.name == part) p.share += point;
   }
+  for (const auto& [name, share] : functions) profile.functions.push_back({name, share});
+  std::sort(profile.functions.begin(), profile.functions.end(),
+            [](const ProfilePart& a, const ProfilePart& b) { return a.share > b.share; });
   return profile;
 }
 

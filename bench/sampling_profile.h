@@ -16,7 +16,8 @@ struct ProfilePart {
 
 struct Profile {
   std::size_t samples = 0;
-  std::vector<ProfilePart> parts;  // in the order of a photon's step; all shares add up to 1
+  std::vector<ProfilePart> parts;      // in the order of a photon's step; all shares add up to 1
+  std::vector<ProfilePart> functions;  // the same by single functions or libraries, largest share first
 };
 
 // Runs the work, which must stay in one thread. One profile at a time in a process.
