@@ -13,6 +13,7 @@ void add_reconstruct(CLI::App& floe);
 void add_compare(CLI::App& floe);
 void add_import(CLI::App& floe, const std::string& command_line);
 void add_export(CLI::App& floe);
+void add_merge(CLI::App& floe, const std::string& command_line);
 void add_validate(CLI::App& floe);
 
 }  // namespace floe

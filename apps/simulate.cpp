@@ -25,6 +25,7 @@ struct SimulateOptions {
   SimulationSettings settings;
   OutputOptions output;
   std::string file;  // -o
+  Shard shard;
 
   FlasherRequest flasher;
   Cascade cascade;
@@ -79,6 +80,19 @@ Cascade parse_cascade(const SimulateOptions& options) {
   return cascade;
 }
 
+// "k/K": part k of K.
+Shard parse_shard(const std::string& text) {
+  const auto slash = text.find('/');
+  if (slash == std::string::npos)
+    throw UsageError(fmt::format("--shard: found \"{}\"; expected k/K, e.g. 2/10", text));
+  Shard shard;
+  shard.count =
+      static_cast<std::uint64_t>(parse_option_integer("--shard", text.substr(slash + 1), 1, 1000000));
+  shard.index = static_cast<std::uint64_t>(
+      parse_option_integer("--shard", text.substr(0, slash), 1, static_cast<std::int64_t>(shard.count)));
+  return shard;
+}
+
 LightRequest light_request(const SimulateOptions& options) {
   const int given = !options.flasher_text.empty() + !options.cascade_text.empty() + !options.f2k.empty();
   if (given != 1) throw UsageError("give exactly one of --flasher, --cascade and --f2k");
@@ -95,11 +109,12 @@ LightRequest light_request(const SimulateOptions& options) {
 
 Provenance provenance_of(const SimulateOptions& options, const LightRequest& light, const Model& model,
                          const std::string& command_line) {
-  const Json configuration = {{"command", "simulate"},
-                              {"model", to_json(options.model)},
-                              {"source", to_json(light)},
-                              {"seed", options.settings.seed},
-                              {"oversize", options.settings.oversize}};
+  Json configuration = {{"command", "simulate"},
+                        {"model", to_json(options.model)},
+                        {"source", to_json(light)},
+                        {"seed", options.settings.seed},
+                        {"oversize", options.settings.oversize}};
+  if (options.shard.count > 1) configuration["shard"] = {options.shard.index, options.shard.count};
   Provenance provenance;
   provenance.version = FLOE_VERSION;
   provenance.command = command_line;
@@ -124,9 +139,8 @@ double photons_to_propagate(const Simulator& simulator, const std::vector<Planne
 // Runs all sources of all events, one after the other, each with random numbers of its own.
 class Run {
  public:
-  Run(const Simulator& simulator, const SimulationSettings& settings, EventFileWriter& writer,
-      Progress progress)
-      : simulator_(simulator), settings_(settings), writer_(writer), progress_(std::move(progress)) {}
+  Run(const Simulator& simulator, const SimulateOptions& options, EventFileWriter& writer, Progress progress)
+      : simulator_(simulator), options_(options), writer_(writer), progress_(std::move(progress)) {}
 
   std::vector<EventResult> operator()(const std::vector<PlannedEvent>& events) {
     const double all = photons_to_propagate(simulator_, events);
@@ -147,9 +161,10 @@ class Run {
  private:
   void run_source(const PlannedSource& planned, const std::string& id, double share, EventResult& result) {
     SimulationOptions options;
-    options.seed = settings_.seed;
+    options.seed = options_.settings.seed;
     options.stream = stream_++;
-    options.threads = settings_.threads;
+    options.threads = options_.settings.threads;
+    options.shard = options_.shard;
     options.fixed_number = planned.fixed_number;
     const Detector& detector = *simulator_.model().detector;
     std::vector<Hit> portion;
@@ -173,7 +188,7 @@ class Run {
   }
 
   const Simulator& simulator_;
-  const SimulationSettings& settings_;
+  const SimulateOptions& options_;
   EventFileWriter& writer_;
   Progress progress_;
   std::uint64_t stream_ = 0;
@@ -242,7 +257,7 @@ void run_simulate(const SimulateOptions& options, const std::string& command_lin
   std::vector<EventResult> results;
   {
     ProgressBar bar(options.output.quiet);
-    results = Run(simulator, options.settings, writer, bar.callback())(events);
+    results = Run(simulator, options, writer, bar.callback())(events);
   }
   json.write(json_text(results_json(results, options, model)));
   writer.close();
@@ -301,6 +316,10 @@ void add_simulate(CLI::App& floe, const std::string& command_line) {
   app.add_option("-o,--output", options->file, "Event file to write")->type_name("FILE.h5")->required();
   add_model_options(app, options->model);
   add_simulation_options(app, options->settings);
+  app.add_option_function<std::string>(
+         "--shard", [options](const std::string& text) { options->shard = parse_shard(text); },
+         "Only part k of K of the photons; floe merge puts the K files together")
+      ->type_name("k/K");
   add_output_options(app, options->output);
   app.footer(
       "Examples:\n"
