@@ -13,7 +13,7 @@ struct ModelComparison {
   std::array<CascadeFit, 2> fits;  // A, B
   // B - A of the saturated negative log-likelihood, on the same bins, with equal numbers of photons and
   // the same seeds: positive when A describes the event better. The error is from the finite
-  // simulations (repeated with independent seeds).
+  // simulations (jackknife over independent seeds).
   double delta_neg_llh = std::numeric_limits<double>::quiet_NaN();
   double delta_neg_llh_error = std::numeric_limits<double>::quiet_NaN();
   // B against A.

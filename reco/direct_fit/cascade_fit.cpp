@@ -65,8 +65,8 @@ ArrivalTimes arrival_times(const EventData& data, const ModuleData& lit, const E
 
 void measure_goodness(const EventData& data, const Evaluation& evaluation, const FitOptions& options,
                       CascadeFit& fit) {
-  fit.neg_llh = evaluation.mean_neg_llh();
-  fit.neg_llh_error = evaluation.error();
+  fit.neg_llh = evaluation.neg_llh;
+  fit.neg_llh_error = jackknife_error(evaluation.leave_one_out);
   const PseudoLikelihood pseudo = draw_pseudo_data(data, evaluation, fit.cascade.time, options.model_error,
                                                    options.seed, options.threads);
   fit.ndof = 2 * pseudo.mean - 7;
@@ -100,7 +100,7 @@ void find_result(ExpectationModel& light, const EventData& data, const FitOption
 
   fit.cascade = cascade_of(end.light, options.kind);
   const Matrix7 jacobian = LocalFrame(end.light).jacobian(Vector7::Zero(), options.kind);
-  fit.covariance = jacobian * covariance_of(end.information) * jacobian.transpose();
+  fit.covariance = jacobian * end.covariance * jacobian.transpose();
 
   if (progress) progress(0.92, "measuring the fit");
   const double photons = search.useful_photons(fit.cascade, 3, 4e6, 1.2e7);

@@ -71,8 +71,8 @@ struct CascadeFit {
   // simulation together with the model error.
   Matrix7 covariance = Matrix7::Constant(std::numeric_limits<double>::quiet_NaN());
 
-  // Saturated negative log-likelihood (0: perfect match) of a simulation of the fitted cascade, and
-  // its spread over independent simulations.
+  // Saturated negative log-likelihood (0: perfect match) of simulations of the fitted cascade, and its error
+  // from their finite number (jackknife over independent simulations).
   double neg_llh = std::numeric_limits<double>::quiet_NaN();
   double neg_llh_error = 0;
   // Twice the mean of neg_llh over pseudo-data drawn from the fit, less 7: what the number of bins less

@@ -8,16 +8,18 @@
 namespace floe {
 namespace {
 
-constexpr double prior_width = 1.5;
+const ShapeTerms prior_weight =  // 1 / variance
+    ShapeTerms(1.0, 0.5, 0.25, 0.15, 0.7).cwiseAbs2().cwiseInverse();
 using ShapeMatrix = Eigen::Matrix<double, shape_terms, shape_terms>;
 
 // Minus the logarithm of the posterior; with its derivatives when asked for.
-double cost(std::span<const ShapeUnit> units, const ShapeTerms& shape, ShapeTerms* gradient,
-            ShapeMatrix* hessian) {
-  double value = 0.5 * shape.squaredNorm() / (prior_width * prior_width);
+double cost(std::span<const ShapeUnit> units, const ShapeTerms& expected, const ShapeTerms& shape,
+            ShapeTerms* gradient, ShapeMatrix* hessian) {
+  const ShapeTerms gap = shape - expected;
+  double value = 0.5 * gap.dot(prior_weight.cwiseProduct(gap));
   if (gradient) {
-    *gradient = shape / (prior_width * prior_width);
-    *hessian = ShapeMatrix::Identity() / (prior_width * prior_width);
+    *gradient = prior_weight.cwiseProduct(gap);
+    *hessian = prior_weight.asDiagonal();
   }
   for (const ShapeUnit& unit : units) {
     double total = 0, weights = 0, data = 0;
@@ -68,14 +70,15 @@ ShapeTerms terms_by_cosine(const Sight& s) {
   return {1, 3 * x, 7.5 * x2 - 1.5, x * (17.5 * x2 - 7.5), 0};
 }
 
-ShapeTerms fit_shape(std::span<const ShapeUnit> units) {
-  ShapeTerms shape = ShapeTerms::Zero(), gradient;
+ShapeTerms fit_shape(std::span<const ShapeUnit> units, const ShapeTerms& expected) {
+  ShapeTerms shape = expected, gradient;
   ShapeMatrix hessian;
   for (int iteration = 0; iteration < 30; ++iteration) {
-    const double now = cost(units, shape, &gradient, &hessian);
+    const double now = cost(units, expected, shape, &gradient, &hessian);
     ShapeTerms step = -hessian.llt().solve(gradient);
     if (-gradient.dot(step) < 1e-6) break;
-    for (int i = 0; i < 20 && !(cost(units, shape + step, nullptr, nullptr) <= now); ++i) step *= 0.5;
+    for (int i = 0; i < 20 && !(cost(units, expected, shape + step, nullptr, nullptr) <= now); ++i)
+      step *= 0.5;
     shape += step;
   }
   return shape;

@@ -36,7 +36,8 @@ struct ShapeUnit {
 };
 
 // The shape that units have in common: maximum of the multinomial likelihood (which does not ask how bright
-// each unit is, only how that changes from simulation to simulation) with a Gaussian prior about 0.
-ShapeTerms fit_shape(std::span<const ShapeUnit> units);
+// each unit is, only how that changes from simulation to simulation) with a Gaussian prior about `expected`.
+// Higher polynomials are given less freedom: light that has scattered is smooth.
+ShapeTerms fit_shape(std::span<const ShapeUnit> units, const ShapeTerms& expected);
 
 }  // namespace floe

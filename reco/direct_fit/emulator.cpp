@@ -111,4 +111,19 @@ Matrix7 Emulator::information(const Vector7& p) const {
   return sum;
 }
 
+Matrix7 cross_information(const Emulator& a, const Emulator& b) {
+  std::vector<Emulator::Evaluation> values_a, values_b;
+  a.evaluate(Vector7::Zero(), values_a);
+  b.evaluate(Vector7::Zero(), values_b);
+  assert(values_a.size() == values_b.size());
+  Matrix7 sum = Matrix7::Zero();
+  for (std::size_t i = 0; i < values_a.size(); ++i) {
+    const double mean = std::exp(0.5 * (values_a[i].log_mean + values_b[i].log_mean));
+    const double simulated = a.bins()[i].effective_counts + b.bins()[i].effective_counts;
+    sum += expected_curvature(a.repeats() * mean, simulated, a.settings().model_error) *
+           values_a[i].gradient * values_b[i].gradient.transpose();
+  }
+  return 0.5 * (sum + sum.transpose());
+}
+
 }  // namespace floe

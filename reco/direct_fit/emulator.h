@@ -63,4 +63,9 @@ class Emulator {
   std::vector<Bin> bins_;
 };
 
+// The information at the common origin of two emulators that were trained on independent simulations: with
+// the product of the gradients of one and the other, their noise does not pass for information, as it does
+// in the square. Symmetric, but not always positive definite.
+Matrix7 cross_information(const Emulator& a, const Emulator& b);
+
 }  // namespace floe

@@ -15,7 +15,7 @@ constexpr double profile_margin = 150;  // beyond the outermost inner edges [ns]
 constexpr double lent_counts = 300;     // of the profile that similar modules have in common
 constexpr double shell_width = 25;      // of the shells in which the point light's brightness is learnt [m]
 constexpr std::size_t shells = 40;
-constexpr int evidence_rounds = 4;
+constexpr int evidence_rounds = 5;
 
 std::size_t shell_of(double distance) {
   return std::min(shells - 1, static_cast<std::size_t>(distance / shell_width));
@@ -44,8 +44,8 @@ std::vector<SampleView> view(std::span<const LightSample* const> samples, const 
 
 // How widely slopes spread about what they are drawn to, for modules at similar distances.
 struct SlopeSpread {
-  double position = 0.02;  // [1/m]
-  double direction = 0.7;  // [1/rad]
+  double position = 0.01;   // [1/m]
+  double direction = 0.25;  // [1/rad]
 
   Coefficients sigma(double constant) const {
     return (Coefficients() << constant, position, position, position, direction, direction).finished();
@@ -157,7 +157,11 @@ std::vector<ShapeTerms> fit_shapes(std::span<const ModuleLight> modules, std::sp
   }
   std::vector<ShapeTerms> shapes(shape_classes);
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
-  for (std::size_t k = 0; k < shape_classes; ++k) shapes[k] = fit_shape(units[k]);
+  for (std::size_t distance = 0; distance < shape_classes; distance += 1 + shape_times.size()) {
+    shapes[distance] = fit_shape(units[distance], ShapeTerms::Zero());
+    for (std::size_t k = distance + 1; k <= distance + shape_times.size(); ++k)
+      shapes[k] = fit_shape(units[k], shapes[distance]);
+  }
   return shapes;
 }
 

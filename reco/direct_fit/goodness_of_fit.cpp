@@ -19,6 +19,14 @@ double width(const EventData& data, const ModuleData& lit, std::size_t bin) {
   return std::max(0.0, high - low);
 }
 
+// Adds the simulation of `part`, `sign` times.
+void add(std::vector<BinCounts>& bins, std::span<const BinCounts> part, double sign) {
+  for (std::size_t i = 0; i < bins.size(); ++i) {
+    bins[i].simulation = std::max(0.0, bins[i].simulation + sign * part[i].simulation);
+    bins[i].simulation_events += sign * part[i].simulation_events;
+  }
+}
+
 // The expected light of one module in cells of time, and draws of what a fit would find in it.
 class PseudoModule {
  public:
@@ -39,7 +47,7 @@ class PseudoModule {
         rates_[static_cast<std::size_t>(std::clamp(place, 0.0, double(cells - 1)))] += 1;
       }
     }
-    simulation_events_ = repeats / double(evaluation.samples.size());
+    simulation_events_ = repeats;
     smooth();
     const double noise = evaluation.noise_rate * 1e-9 * (end - begin) / double(cells);
     for (double& rate : rates_) rate = rate / repeats + noise;
@@ -128,16 +136,11 @@ double neg_llh(std::span<const BinCounts> bins, double model_error) {
   return sum;
 }
 
-double Evaluation::mean_neg_llh() const {
-  return std::accumulate(neg_llh.begin(), neg_llh.end(), 0.0) / double(neg_llh.size());
-}
-
-double Evaluation::error() const {
-  const double n = double(neg_llh.size()), centre = mean_neg_llh();
-  if (n < 2) return 0;
+double jackknife_error(std::span<const double> values) {
+  const double n = double(values.size()), mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
   double square = 0;
-  for (const double value : neg_llh) square += (value - centre) * (value - centre);
-  return std::sqrt(square / (n * (n - 1)));
+  for (const double value : values) square += (value - mean) * (value - mean);
+  return std::sqrt(square * (n - 1) / n);
 }
 
 Evaluation evaluate_cascade(ExpectationModel& light, const EventData& data, const CascadeParameters& cascade,
@@ -145,11 +148,19 @@ Evaluation evaluate_cascade(ExpectationModel& light, const EventData& data, cons
                             double model_error, double noise_rate) {
   Evaluation result;
   result.noise_rate = noise_rate;
+  std::vector<std::vector<BinCounts>> parts;
   for (int i = 0; i < repeats; ++i) {
     result.samples.push_back(
         light.sample({cascade, photons, oversize, stream + static_cast<std::uint64_t>(i)}));
-    const std::vector<BinCounts> bins = count_bins(data, result.samples.back(), cascade.time, noise_rate);
-    result.neg_llh.push_back(floe::neg_llh(bins, model_error));
+    parts.push_back(count_bins(data, result.samples.back(), cascade.time, noise_rate));
+  }
+  std::vector<BinCounts> all = parts.front();
+  for (std::size_t i = 1; i < parts.size(); ++i) add(all, parts[i], 1);
+  result.neg_llh = neg_llh(all, model_error);
+  for (const auto& part : parts) {
+    std::vector<BinCounts> others = all;
+    add(others, part, -1);
+    result.leave_one_out.push_back(neg_llh(others, model_error));
   }
   return result;
 }

@@ -19,13 +19,13 @@ double neg_llh(std::span<const BinCounts> bins, double model_error);
 // A cascade measured with independent simulations of itself.
 struct Evaluation {
   std::vector<LightSample> samples;
-  std::vector<double> neg_llh;  // of each
-  double noise_rate = 0;        // of a module [1/s]
-
-  double mean_neg_llh() const;
-  double error() const;  // of the mean, from the spread
+  double neg_llh = 0;                 // of all simulations together
+  std::vector<double> leave_one_out;  // with all but one
+  double noise_rate = 0;              // of a module [1/s]
 };
-// `photons` for each of `repeats` simulations; streams begin at `stream`.
+// Error of a value from what it becomes without each of its parts: the jackknife.
+double jackknife_error(std::span<const double> leave_one_out);
+// `photons` for each of `repeats` simulations; streams begin at `stream`. At least two.
 Evaluation evaluate_cascade(ExpectationModel& light, const EventData& data, const CascadeParameters& cascade,
                             double photons, double oversize, int repeats, std::uint64_t stream,
                             double model_error, double noise_rate);

@@ -13,6 +13,7 @@ namespace {
 constexpr double scan_share = 0.15;  // of the progress bar
 constexpr double usual_rounds = 9;   // of a fit, for the progress bar
 constexpr double coarse_oversize = 12;
+constexpr double largest_pull = 1.2;             // of the last step: what the noise of simulations makes
 constexpr double design_reach = 2.4;             // how far simulations are used, in steps from the origin
 constexpr double other_direction = 50 * degree;  // apart: worth following both
 
@@ -42,34 +43,34 @@ void Search::report(double within_round, const std::string& what) {
 }
 
 void Search::simulate(const LocalFrame& frame, const Stage& stage) {
-  const auto design = simplex_design(options_.seed, draws_++);
+  const auto design = simplex_design(options_.seed, ++draws_);
   for (std::size_t i = 0; i < design.size(); ++i) {
     Vector7 local = Vector7::Zero();
     local.head<3>() = stage.position_step * design[i].head<3>();
     local.segment<2>(3) = stage.direction_step * design[i].tail<2>();
     LightRequest request{cascade_of(frame.at(local), options_.kind), stage.photons / double(design.size()),
                          stage.oversize, stream_++};
-    samples_.push_back(std::make_unique<LightSample>(light_.sample(request)));
+    simulations_.push_back(std::make_unique<Simulation>(Simulation{light_.sample(request), draws_}));
     ++result_.simulations;
-    result_.photons += samples_.back()->propagated;
+    result_.photons += simulations_.back()->sample.propagated;
     report(double(i + 1) / double(design.size()), words(cascade_of(frame.origin(), options_.kind)));
   }
 }
 
-std::vector<const LightSample*> Search::near(const LocalFrame& frame, const Stage& stage) const {
-  std::vector<const LightSample*> result;
-  for (const auto& sample : samples_) {
-    const Vector7 local = frame.of(light_centre(sample->cascade, options_.kind));
+std::vector<const Search::Simulation*> Search::near(const LocalFrame& frame, const Stage& stage) const {
+  std::vector<const Simulation*> result;
+  for (const auto& simulation : simulations_) {
+    const Vector7 local = frame.of(light_centre(simulation->sample.cascade, options_.kind));
     const double distance = std::hypot(local.head<3>().norm() / stage.position_step,
                                        local.segment<2>(3).norm() / stage.direction_step);
-    if (sample->oversize == stage.oversize && distance < design_reach) result.push_back(sample.get());
+    if (simulation->sample.oversize == stage.oversize && distance < design_reach)
+      result.push_back(simulation.get());
   }
   return result;
 }
 
-Search::RoundEnd Search::round(const LightCentre& origin, const Stage& stage) {
-  const LocalFrame frame(origin);
-  simulate(frame, stage);
+Emulator Search::emulate(const LightCentre& origin, const Stage& stage,
+                         std::span<const Simulation* const> simulations) {
   EmulatorSettings settings;
   settings.kind = options_.kind;
   settings.model_error = options_.model_error;
@@ -77,14 +78,36 @@ Search::RoundEnd Search::round(const LightCentre& origin, const Stage& stage) {
   settings.position_step = stage.position_step;
   settings.direction_step = stage.direction_step;
   settings.threads = options_.threads;
-  const Emulator emulator(data_, ice_, origin, near(frame, stage), settings);
+  std::vector<const LightSample*> samples;
+  for (const Simulation* simulation : simulations) samples.push_back(&simulation->sample);
+  return {data_, ice_, origin, samples, settings};
+}
+
+// With two emulators from every other draw of the design; from all at once where that says nothing.
+Matrix7 Search::final_covariance(const LightCentre& light, const Stage& stage, const Matrix7& information) {
+  std::vector<const Simulation*> halves[2];
+  for (const Simulation* simulation : near(LocalFrame(light), stage))
+    halves[simulation->draw % 2].push_back(simulation);
+  if (!halves[0].empty() && !halves[1].empty()) {
+    const Matrix7 cross =
+        cross_information(emulate(light, stage, halves[0]), emulate(light, stage, halves[1]));
+    const Matrix7 covariance = covariance_of(cross);
+    if (covariance.allFinite()) return covariance;
+  }
+  return covariance_of(information);
+}
+
+Search::RoundEnd Search::round(const LightCentre& origin, const Stage& stage) {
+  const LocalFrame frame(origin);
+  simulate(frame, stage);
+  const Emulator emulator = emulate(origin, stage, near(frame, stage));
 
   RoundEnd end;
   end.fit = fit_locally(emulator);
   end.light = frame.at(end.fit.step);
   end.errors = covariance_of(end.fit.information).diagonal().cwiseSqrt();
   end.pull = end.fit.step.cwiseAbs().cwiseQuotient(end.errors).maxCoeff();
-  end.within = (end.fit.step.cwiseAbs().array() < 0.98 * trust_region(settings).array()).all();
+  end.within = (end.fit.step.cwiseAbs().array() < 0.98 * trust_region(emulator.settings()).array()).all();
   result_.rounds.push_back({cascade_of(end.light, options_.kind), end.fit.neg_llh, stage.position_step,
                             stage.direction_step, stage.oversize, end.pull});
   return end;
@@ -119,30 +142,32 @@ Search::End Search::refine(const LightCentre& start) {
   const double coarse = std::max(coarse_oversize, options_.oversize);
   const RoundEnd rough = settle(start, {8, 12 * degree, coarse, 4e6 * options_.effort}, 4);
 
-  End end{rough.light, rough.fit.information, false, {}};
+  End end{rough.light, {}, false, {}};
+  Stage stage;
+  Matrix7 information = rough.fit.information;
   Vector7 errors = rough.errors;
   int fine_rounds = 0;
   while (static_cast<int>(result_.rounds.size()) < options_.max_rounds || fine_rounds < 2) {
-    Stage stage;
-    stage.position_step = std::clamp(errors.head<3>().norm(), 3.0, 10.0);
-    stage.direction_step = std::clamp(errors.segment<2>(3).norm(), 4 * degree, 15 * degree);
+    stage.position_step = std::clamp(2 * errors.head<3>().norm(), 3.0, 10.0);
+    stage.direction_step = std::clamp(2 * errors.segment<2>(3).norm(), 4 * degree, 18 * degree);
     stage.oversize = options_.oversize;
     stage.photons = useful_photons(cascade_of(end.light, options_.kind), 6, 4e6, 2e7);
     const RoundEnd now = round(end.light, stage);
     ++fine_rounds;
     end.light = now.light;
-    end.information = now.fit.information;
+    information = now.fit.information;
     errors = now.errors;
     end.trouble.clear();
     if (!errors.allFinite())
       end.trouble = "the data do not determine all seven numbers";
     else if (!now.within)
       end.trouble = "the fit was still moving away after the last round";
-    else if (now.pull >= 1)
-      end.trouble = "the last step was still as large as its error";
+    else if (now.pull >= largest_pull)
+      end.trouble = "the last step was still larger than its error";
     if (end.trouble.empty() && fine_rounds >= 2) break;
   }
   end.converged = end.trouble.empty();
+  end.covariance = final_covariance(end.light, stage, information);
   return end;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,10 +31,10 @@ class Search {
 
   // Where the search ends. Coarse rounds far apart and with wide modules, fine ones at the wanted oversize;
   // earlier simulations near by are used again. Ends when two fine rounds are done and the last step was
-  // less than its error in every parameter.
+  // no more than about its error in every parameter.
   struct End {
     LightCentre light;
-    Matrix7 information;  // of the last round's local numbers, around `light`
+    Matrix7 covariance;  // of the local numbers around `light`
     bool converged = false;
     std::string trouble;  // in words, when it did not
   };
@@ -53,7 +54,14 @@ class Search {
   };
   RoundEnd round(const LightCentre& origin, const Stage& stage);
   void simulate(const LocalFrame& frame, const Stage& stage);
-  std::vector<const LightSample*> near(const LocalFrame& frame, const Stage& stage) const;
+  struct Simulation {
+    LightSample sample;
+    std::uint64_t draw;  // of the design: simulations of one draw belong together
+  };
+  std::vector<const Simulation*> near(const LocalFrame& frame, const Stage& stage) const;
+  Emulator emulate(const LightCentre& origin, const Stage& stage,
+                   std::span<const Simulation* const> simulations);
+  Matrix7 final_covariance(const LightCentre& light, const Stage& stage, const Matrix7& information);
   RoundEnd settle(LightCentre origin, Stage stage, int most);
   End refine(const LightCentre& light);
   LightCentre best_of_two(const std::vector<SeedCandidate>& candidates);
@@ -65,7 +73,7 @@ class Search {
   const FitOptions& options_;
   CascadeFit& result_;
   const Progress& progress_;
-  std::vector<std::unique_ptr<LightSample>> samples_;
+  std::vector<std::unique_ptr<Simulation>> simulations_;
   std::uint64_t stream_ = 0, draws_ = 0;
 };
 
