@@ -27,11 +27,22 @@ struct HadronNumbers {
 };
 
 // Angle of the emitting particles to the axis: 1 - cos = (-ln(1 - u I)/b)^(1/a).
-float draw_one_minus_cos_of_particle(RandomStream& random) {
-  constexpr float a = 0.39f, b = 2.61f;
-  static const float normalisation = 1 - std::exp(-b * std::exp2(a));
-  const float x = std::pow(-std::log1p(-random.uniform() * normalisation) / b, 1 / a);
-  return std::min(x, 2.0f);
+QuantileTable particle_angles() {
+  constexpr double a = 0.39, b = 2.61;
+  const double normalisation = 1 - std::exp(-b * std::exp2(a));
+  return QuantileTable::of_quantile([normalisation](double u) {
+    return std::min(2.0, std::pow(-std::log1p(-u * normalisation) / b, 1 / a));
+  });
+}
+
+// Quantiles of the gamma distribution; its upper end holds less than 1e-8 beyond.
+QuantileTable depths_of(const LongitudinalProfile& profile) {
+  const double shape = profile.shape, end = shape + 8 * std::sqrt(shape) + 20;  // in units of the scale
+  return QuantileTable::of_density(0, end * profile.scale, [&](double depth) {
+    const double x = depth / profile.scale;
+    if (x <= 0) return shape < 1 ? 0.0 : shape == 1 ? 1.0 : 0.0;
+    return std::exp((shape - 1) * std::log(x) - x - std::lgamma(shape));
+  });
 }
 
 }  // namespace
@@ -44,7 +55,8 @@ CascadeKind cascade_kind_of(const std::string& name) {
   throw UsageError(fmt::format("unknown particle '{}'; known are e-, e+, gamma and hadron", name));
 }
 
-LongitudinalProfile longitudinal_profile(CascadeKind kind, double energy) {
+namespace {
+LongitudinalProfile parametrised_profile(CascadeKind kind, double energy) {
   const double log_energy = std::log(std::max(muon_mass, energy));
   switch (kind) {
     case CascadeKind::positron:
@@ -57,6 +69,13 @@ LongitudinalProfile longitudinal_profile(CascadeKind kind, double energy) {
       break;
   }
   return {2.01849 + 0.63176 * log_energy, radiation_length / 0.63207};
+}
+}  // namespace
+
+LongitudinalProfile longitudinal_profile(CascadeKind kind, double energy) {
+  const LongitudinalProfile profile = parametrised_profile(kind, energy);
+  // Far below a GeV the parametrised shape becomes negative; there the light is at the vertex.
+  return {std::max(profile.shape, 0.05), profile.scale};
 }
 
 LightYield light_yield(CascadeKind kind, double energy) {
@@ -83,14 +102,15 @@ double draw_yield_fluctuation(CascadeKind kind, double energy, RandomStream& ran
 CascadeSource::CascadeSource(const Cascade& cascade, const WavelengthSpectrum& spectrum,
                              double yield_fluctuation)
     : cascade_(cascade),
-      axis_(travel_direction(cascade.zenith, cascade.azimuth)),
+      vertex_(cascade.position.cast<float>()),
+      axis_(travel_direction(cascade.zenith, cascade.azimuth).cast<float>()),
       profile_(longitudinal_profile(cascade.kind, cascade.energy)),
+      depths_(depths_of(profile_)),
+      particle_angles_(particle_angles()),
       photons_(photons_per_metre * light_yield(cascade.kind, cascade.energy).mean * yield_fluctuation),
       spectrum_(spectrum) {
   if (!(cascade.energy > 0) || !std::isfinite(cascade.energy))
     throw UsageError(fmt::format("a cascade's energy must be positive, found {} GeV", cascade.energy));
-  // Far below a GeV the parametrisation's shape becomes negative; there the light is at the vertex.
-  profile_.shape = std::max(profile_.shape, 1e-3);
 }
 
 double CascadeSource::photons() const {
@@ -101,13 +121,12 @@ EmittedPhoton CascadeSource::emit(RandomStream& random) const {
   EmittedPhoton photon;
   photon.wavelength = static_cast<float>(spectrum_.sample(random.uniform()));
 
-  std::gamma_distribution<double> longitudinal(profile_.shape, profile_.scale);
-  const double depth = longitudinal(random);
-  photon.position = (cascade_.position + depth * axis_).cast<float>();
+  const float depth = depths_(random.uniform());
+  photon.position = vertex_ + depth * axis_;
   photon.time = static_cast<float>(cascade_.time + depth / speed_of_light);
 
-  const float particle = draw_one_minus_cos_of_particle(random);
-  const Vec3f track = deflect(Vec3f(axis_.cast<float>()), particle, random.uniform());
+  const float particle = particle_angles_(random.uniform());
+  const Vec3f track = deflect(axis_, particle, random.uniform());
   const auto cherenkov = static_cast<float>(1 - 1 / phase_index(photon.wavelength));
   photon.direction = deflect(track, cherenkov, random.uniform());
   return photon;

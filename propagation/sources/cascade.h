@@ -4,6 +4,7 @@
 #include <string>
 
 #include "geometry/acceptance.h"
+#include "propagation/sources/quantile_table.h"
 #include "propagation/sources/source.h"
 
 namespace floe {
@@ -43,8 +44,9 @@ class CascadeSource : public Source {
 
  private:
   Cascade cascade_;
-  Vec3 axis_;
+  Vec3f vertex_, axis_;
   LongitudinalProfile profile_;
+  QuantileTable depths_, particle_angles_;
   double photons_;
   WavelengthSpectrum spectrum_;
 };
