@@ -35,7 +35,8 @@ std::vector<std::string> examples_of(const std::string& command) {
 
 TEST(Help, ListsTheCommandsThatUsersRelyOn) {
   const auto names = commands();
-  for (const char* name : {"info", "simulate", "reconstruct", "compare", "import", "export", "merge", "validate"})
+  for (const char* name :
+       {"info", "simulate", "reconstruct", "compare", "import", "export", "merge", "validate"})
     EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
 }
 
