@@ -73,15 +73,21 @@ void measure_goodness(const EventData& data, const Evaluation& evaluation, const
   fit.p_value = 0.5 * std::erfc((fit.neg_llh - 0.5 * fit.ndof) / (pseudo.spread * std::sqrt(2.0)));
 }
 
+std::string outside_words(double metres) {
+  return "the vertex is " + std::to_string(std::lround(metres)) + " m outside the instrumented volume";
+}
+
 void judge(const Search::End& end, const EventData& data, const TrackTest& track, CascadeFit& fit) {
   const double outside = InstrumentedVolume(data.detector()).distance_outside(fit.cascade.position);
   if (!end.converged) {
     fit.status = FitStatus::no_convergence;
     fit.reason = "no convergence after " + std::to_string(fit.rounds.size()) + " rounds: " + end.trouble;
+    // The likely cause, where there is one.
+    if (track.track_like) fit.reason += "; the event looks like a track: " + track.words();
+    if (outside > outside_by) fit.reason += "; " + outside_words(outside);
   } else if (outside > outside_by) {
     fit.status = FitStatus::outside;
-    fit.reason =
-        "the vertex is " + std::to_string(std::lround(outside)) + " m outside the instrumented volume";
+    fit.reason = outside_words(outside);
   } else if (track.track_like) {
     fit.status = FitStatus::track_like;
     fit.reason = "the event looks like a track, the fit as a cascade may mean little: " + track.words();
@@ -178,8 +184,13 @@ std::string describe(const CascadeFit& fit) {
   const char* units[] = {"m", "m", "m", "ns", "deg", "deg", "GeV"};
   for (int i = 0; i < 7; ++i) {
     char line[120];
-    std::snprintf(line, sizeof line, "  %-8s %10.*f +- %.*f %s\n", names[i], i == 6 ? 0 : 2, value(i),
-                  i == 6 ? 0 : 2, std::sqrt(covariance(i, i)), units[i]);
+    const int digits = i == 6 ? 0 : 2;
+    const double variance = covariance(i, i);
+    if (variance >= 0)
+      std::snprintf(line, sizeof line, "  %-8s %10.*f +- %.*f %s\n", names[i], digits, value(i), digits,
+                    std::sqrt(variance), units[i]);
+    else  // the data leave it open
+      std::snprintf(line, sizeof line, "  %-8s %10.*f +- ? %s\n", names[i], digits, value(i), units[i]);
     text += line;
   }
   char line[200];

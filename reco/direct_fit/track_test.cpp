@@ -55,7 +55,7 @@ TrackTest test_for_track(const EventData& data, const PointSeed& point) {
   test.elongation = std::sqrt(along / std::max(across, 1.0));
   test.track_spread = std::sqrt(track / n);
   test.cascade_spread = std::sqrt(std::max(0.0, cascade / n - cascade_mean * cascade_mean));
-  test.track_like = test.speed > 0.5 * speed_of_light && test.speed < 1.3 * speed_of_light &&
+  test.track_like = test.speed > 0.4 * speed_of_light && test.speed < 1.3 * speed_of_light &&
                     test.length > 80 && test.elongation > 1.5 && test.track_spread < test.cascade_spread;
   return test;
 }

@@ -15,7 +15,7 @@ struct TrackTest {
   double elongation = 1;      // length over the spread across v, per axis
   double track_spread = 0;    // rms of t - (r - r0).v/|v|^2 [ns]
   double cascade_spread = 0;  // rms of t - t0 - flight time from the best point [ns]
-  // speed in 0.5 c to 1.3 c, length > 80 m, elongation > 1.5, track_spread < cascade_spread.
+  // speed in 0.4 c to 1.3 c, length > 80 m, elongation > 1.5, track_spread < cascade_spread.
   bool track_like = false;
   std::string words() const;
 };
