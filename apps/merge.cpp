@@ -152,8 +152,8 @@ void run_merge(const MergeOptions& options, const std::string& command_line) {
   writer.close();
   json.commit();
   if (!options.output.quiet)
-    fmt::print("{}: {} {}, {} event{}, {} hits\n", options.to, parts.size(), shards ? "shards" : "files",
-               events.size(), events.size() == 1 ? "" : "s", hits);
+    fmt::print("{}: {} {}{}, {} event{}, {} hits\n", options.to, parts.size(), shards ? "shard" : "file",
+               parts.size() == 1 ? "" : "s", events.size(), events.size() == 1 ? "" : "s", hits);
 }
 
 }  // namespace
