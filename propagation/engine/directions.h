@@ -8,31 +8,32 @@
 
 namespace floe {
 
-// Two unit vectors that complete the unit vector n to a right-handed frame (Duff et al., JCGT 6(1),
-// 2017): smooth except at n = -z.
-template <typename Vector>
-struct Frame {
-  Vector first, second;
-};
-template <typename Vector>
-Frame<Vector> frame_around(const Vector& n) {
-  using Scalar = typename Vector::Scalar;
-  const Scalar sign = std::copysign(Scalar(1), n.z());
-  const Scalar a = Scalar(-1) / (sign + n.z());
-  const Scalar b = n.x() * n.y() * a;
-  return {{1 + sign * n.x() * n.x() * a, sign * b, -sign * n.x()}, {b, sign + n.y() * n.y() * a, -n.y()}};
+// Turns the unit vector n by the angle theta, given as 1 - cos(theta) in [0, 2] to keep small angles exact,
+// towards (cosine, sine) of a turn around it. The frame around n is that of Duff et al., JCGT 6(1), 2017:
+// smooth except at n = -z. By components and without branches: vector loops call it, too.
+template <typename Scalar>
+void deflect(Scalar one_minus_cos, Scalar cosine, Scalar sine, Scalar& nx, Scalar& ny, Scalar& nz) {
+  const Scalar x = nx, y = ny, z = nz;
+  const Scalar sign = std::copysign(Scalar(1), z);
+  const Scalar a = -1 / (sign + z), b = x * y * a;
+  const Scalar across = std::sqrt(one_minus_cos * (2 - one_minus_cos));
+  const Scalar c = across * cosine, s = across * sine;
+  const Scalar mx = x - one_minus_cos * x + c * (1 + sign * x * x * a) + s * b;
+  const Scalar my = y - one_minus_cos * y + c * sign * b + s * (sign + y * y * a);
+  const Scalar mz = z - one_minus_cos * z - c * sign * x - s * y;
+  const Scalar norm = 1 / std::sqrt(mx * mx + my * my + mz * mz);
+  nx = mx * norm;
+  ny = my * norm;
+  nz = mz * norm;
 }
 
-// The unit vector at angle theta to n, given as 1 - cos(theta) in [0, 2] to keep small angles exact, at
-// `turn` (a fraction of a full turn) around it.
+// The same for a vector, at `turn`, a fraction of a full turn, around n.
 template <typename Vector, typename Scalar>
 Vector deflect(const Vector& n, Scalar one_minus_cos, Scalar turn) {
-  const auto [first, second] = frame_around(n);
-  const Scalar sine = std::sqrt(one_minus_cos * (2 - one_minus_cos));
-  const Scalar angle = Scalar(2 * pi) * turn;
-  const Vector turned =
-      n + sine * std::cos(angle) * first + sine * std::sin(angle) * second - one_minus_cos * n;
-  return turned.normalized();
+  const auto around = turn_functions(turn);
+  Vector turned = n;
+  deflect(one_minus_cos, around.cosine, around.sine, turned.x(), turned.y(), turned.z());
+  return turned;
 }
 
 }  // namespace floe

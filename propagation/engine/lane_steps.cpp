@@ -6,6 +6,7 @@
 
 #include "propagation/engine/anisotropy.h"
 #include "propagation/engine/birefringence.h"
+#include "propagation/engine/directions.h"
 #include "propagation/engine/vector_math.h"
 
 namespace floe {
@@ -201,19 +202,7 @@ void scatter(const IceView& ice, Lanes& lanes) {
   for (int i = 0; i < N; ++i) {
     const float loss = function.one_minus_cos(draw(lanes, i));
     const TurnFunctions<float> turn = turn_functions(draw(lanes, i));
-    const float sine = std::sqrt(loss * (2 - loss));
-    // The frame around n of directions.h, written out for one lane.
-    const float nx = lanes.nx[i], ny = lanes.ny[i], nz = lanes.nz[i];
-    const float sign = std::copysign(1.0f, nz);
-    const float a = -1 / (sign + nz), b = nx * ny * a;
-    const float c = sine * turn.cosine, s = sine * turn.sine;
-    const float mx = nx - loss * nx + c * (1 + sign * nx * nx * a) + s * b;
-    const float my = ny - loss * ny + c * sign * b + s * (sign + ny * ny * a);
-    const float mz = nz - loss * nz - c * sign * nx - s * ny;
-    const float norm = 1 / std::sqrt(mx * mx + my * my + mz * mz);
-    lanes.nx[i] = mx * norm;
-    lanes.ny[i] = my * norm;
-    lanes.nz[i] = mz * norm;
+    deflect(loss, turn.cosine, turn.sine, lanes.nx[i], lanes.ny[i], lanes.nz[i]);
   }
 }
 

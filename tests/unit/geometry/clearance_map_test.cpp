@@ -6,19 +6,14 @@
 #include "data/base/error.h"
 #include "geometry/clearance_map.h"
 #include "geometry/module_scene.h"
+#include "tests/unit/geometry/random_places.h"
 
 namespace floe {
 namespace {
 
-using Random = std::mt19937_64;
-
-double uniform(Random& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
-
-Vec3 random_direction(Random& random) {
-  return unit_vector(std::acos(uniform(random, -1, 1)), uniform(random, 0, 2 * pi));
-}
+using test::Random;
+using test::random_direction;
+using test::uniform;
 
 // Near a module, anywhere in the array, or far outside.
 Vec3 random_point(const Detector& detector, Random& random) {
