@@ -24,14 +24,16 @@ IceView::IceView(const IceModel& ice)
       displacement(birefringent && ice.birefringence()->displacement) {
   const double geometric = 1 / (1 - ice.mean_cosine());
   for (const IceLayer& layer : ice.layers()) {
-    scattering_constant.push_back(static_cast<float>(geometric * layer.scattering_constant));
-    scattering_power.push_back(static_cast<float>(geometric * layer.scattering_power));
-    absorption_dust.push_back(static_cast<float>(layer.absorption_dust));
-    absorption_thermal.push_back(static_cast<float>(layer.absorption_thermal));
-    diffusion.push_back(static_cast<float>(layer.diffusion_strength));
-    deflection.push_back(static_cast<float>(layer.deflection_strength));
-    k1.push_back(static_cast<float>(layer.k1));
-    k2.push_back(static_cast<float>(layer.k2));
+    TableRow row{};
+    row.values[scattering_constant] = static_cast<float>(geometric * layer.scattering_constant);
+    row.values[scattering_power] = static_cast<float>(geometric * layer.scattering_power);
+    row.values[absorption_dust] = static_cast<float>(layer.absorption_dust);
+    row.values[absorption_thermal] = static_cast<float>(layer.absorption_thermal);
+    row.values[diffusion] = static_cast<float>(layer.diffusion_strength);
+    row.values[deflection] = static_cast<float>(layer.deflection_strength);
+    row.values[k1] = static_cast<float>(layer.k1);
+    row.values[k2] = static_cast<float>(layer.k2);
+    layers.push_back(row);
     anisotropic_scattering |= layer.k1 != 0 || layer.k2 != 0;
   }
   if (birefringent) tabulate_birefringence(*ice.birefringence());
@@ -46,20 +48,23 @@ IceView::IceView(const IceModel& ice)
 }
 
 void IceView::tabulate_birefringence(const BirefringenceNumbers& numbers) {
-  const auto fill = [](Table& table, auto function) {
+  birefringence.assign(birefringence_intervals, {});
+  const auto fill = [this](BirefringenceColumn value, BirefringenceColumn change, auto function) {
     // The drift is 0/0 at both ends: a place just inside has the limit.
     const auto at = [&](int i) {
       return function(std::clamp(static_cast<double>(i) / birefringence_intervals, 1e-6, 1 - 1e-9));
     };
     for (int i = 0; i < birefringence_intervals; ++i) {
-      table.value.push_back(static_cast<float>(at(i)));
-      table.change.push_back(static_cast<float>(at(i + 1) - at(i)));
+      birefringence[i].values[value] = static_cast<float>(at(i));
+      birefringence[i].values[change] = static_cast<float>(at(i + 1) - at(i));
     }
   };
   const double wide = numbers.diffusion ? 1 : 0, drifts = numbers.deflection ? 1 : 0;
-  fill(sigma_x, [&](double cosine) { return wide * diffusion_step(numbers, cosine).sigma_x; });
-  fill(sigma_y, [&](double cosine) { return wide * diffusion_step(numbers, cosine).sigma_y; });
-  fill(drift, [&](double cosine) {
+  fill(sigma_x, sigma_x_change,
+       [&](double cosine) { return wide * diffusion_step(numbers, cosine).sigma_x; });
+  fill(sigma_y, sigma_y_change,
+       [&](double cosine) { return wide * diffusion_step(numbers, cosine).sigma_y; });
+  fill(drift, drift_change, [&](double cosine) {
     return drifts * diffusion_step(numbers, cosine).mean_x / (cosine * std::sqrt(1 - cosine * cosine));
   });
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "propagation/engine/scattering.h"
+#include "propagation/engine/table_rows.h"
 #include "propagation/ice/ice_model.h"
 
 namespace floe {
@@ -14,12 +15,21 @@ namespace floe {
 struct IceView {
   explicit IceView(const IceModel& ice);
 
-  // Layers from the bottom up; coefficients as in IceLayer, scattering geometric (divided by 1 - g).
+  // Layers from the bottom up, a row each; coefficients as in IceLayer, scattering geometric (divided by
+  // 1 - g), k1 and k2 natural logs.
+  enum LayerColumn {
+    scattering_constant,
+    scattering_power,
+    absorption_dust,
+    absorption_thermal,
+    diffusion,
+    deflection,
+    k1,
+    k2
+  };
   int last_layer;
   float z_bottom, step, layers_per_metre;
-  std::vector<float> scattering_constant, scattering_power, absorption_dust, absorption_thermal;
-  std::vector<float> diffusion, deflection;
-  std::vector<float> k1, k2;     // natural logs
+  std::vector<TableRow> layers;
   bool anisotropic_scattering;   // any k not 0
   float old_absorption_scaling;  // 0: off
 
@@ -27,15 +37,13 @@ struct IceView {
   float absorption_K1, absorption_K2, absorption_Kz;
   ScatteringFunction<float> scattering;
 
-  // Birefringence, per metre at strength 1, linear in |cos eta| over `birefringence_intervals`: value at
-  // an interval's start and change to its end. The drift is tabulated without its factor
+  // Birefringence, per metre at strength 1, linear in |cos eta| over `birefringence_intervals`, a row each:
+  // value at an interval's start and change to its end. The drift is tabulated without its factor
   // sin eta cos eta, which is steep at both ends.
   static constexpr int birefringence_intervals = 512;
-  struct Table {
-    std::vector<float> value, change;
-  };
+  enum BirefringenceColumn { sigma_x, sigma_x_change, sigma_y, sigma_y_change, drift, drift_change };
   bool birefringent, displacement;
-  Table sigma_x, sigma_y, drift;
+  std::vector<TableRow> birefringence;
 
   // A wavelength's factors in the layers' coefficients, and the inverse of the group velocity [ns/m],
   // linear over whole nanometres.

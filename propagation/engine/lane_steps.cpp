@@ -21,6 +21,8 @@ inline float draw(Lanes& lanes, int i) {
       RandomStream::next(lanes.random0[i], lanes.random1[i], lanes.random2[i], lanes.random3[i]));
 }
 
+using Columns = float[8][N];
+
 // Absorption's dependence on the direction, per lane.
 void anisotropic_absorption(const IceView& ice, const Lanes& lanes, float* factor) {
 #pragma omp simd
@@ -31,14 +33,14 @@ void anisotropic_absorption(const IceView& ice, const Lanes& lanes, float* facto
                                              lanes.nz[i]);
   }
   if (ice.old_absorption_scaling == 0) return;
-  const float* k1 = ice.k1.data();
-  const float* k2 = ice.k2.data();
+  alignas(64) Columns layer;
+  fetch_rows(ice.layers.data(), lanes.layer, layer);
 #pragma omp simd
   for (int i = 0; i < N; ++i) {
     const float n1 = ice.flow_x * lanes.nx[i] + ice.flow_y * lanes.ny[i];
     const float n2 = -ice.flow_y * lanes.nx[i] + ice.flow_x * lanes.ny[i];
-    factor[i] *= old_absorption_factor(k1[lanes.layer[i]], k2[lanes.layer[i]], ice.old_absorption_scaling, n1,
-                                       n2, lanes.nz[i]);
+    factor[i] *= old_absorption_factor(layer[IceView::k1][i], layer[IceView::k2][i],
+                                       ice.old_absorption_scaling, n1, n2, lanes.nz[i]);
   }
 }
 
@@ -47,83 +49,103 @@ inline float slope_of(float nz) {
   return std::copysign(larger(std::fabs(nz), 1e-9f), nz);
 }
 
-}  // namespace
-
-void draw_scattering_depths(Lanes& lanes) {
-#pragma omp simd
-  for (int i = 0; i < N; ++i) lanes.scattering_depth[i] = -std::log(draw(lanes, i));
+// The part of a lane's segment in one layer: as far as the scatter, the absorption or the layer's boundary,
+// which is `reach` metres away.
+struct Piece {
+  float length, scattering_depth, absorption_depth;
+  std::int32_t absorbed, crosses;  // or goes on into the next layer
+};
+inline Piece piece_of(float scattering, float absorption, float scattering_depth, float absorption_depth,
+                      float reach) {
+  const float to_scatter = larger(0, scattering_depth) / scattering;
+  const float to_absorb = larger(0, absorption_depth) / absorption;
+  const float length = smaller(smaller(to_scatter, to_absorb), reach);
+  return {length, length * scattering, length * absorption, to_absorb <= to_scatter ? 1 : 0,
+          reach <= length ? 1 : 0};
 }
 
-namespace {
-
-struct LayerTables {
-  const float *scattering_constant, *scattering_power, *absorption_dust, *absorption_thermal, *diffusion,
-      *deflection;
-  int last;
-};
-
-// Takes one lane's segment through its layer: as far as the scatter, the absorption or the layer's boundary,
-// which is `reach` metres away. A lane that is not going (0) stays as it is; one that goes on into the next
-// layer (1) has it in lanes.layer.
-inline std::int32_t through_layer(const LayerTables& tables, Lanes& lanes, int i, float factor, float reach,
-                                  std::int32_t going) {
-  const int layer = lanes.layer[i];
-  const float scattering =
-      tables.scattering_constant[layer] + tables.scattering_power[layer] * lanes.scattering_power[i];
-  const float absorption = factor * (tables.absorption_dust[layer] * lanes.absorption_dust[i] +
-                                     tables.absorption_thermal[layer] * lanes.absorption_thermal[i]);
-  const float to_scatter = larger(0, lanes.scattering_depth[i]) / scattering;
-  const float to_absorb = larger(0, lanes.absorption_depth[i]) / absorption;
-  const int next = layer + (lanes.nz[i] > 0 ? 1 : -1);
+// The distance to the boundary towards layer `next`; endless out of the outermost layers.
+inline float limited_reach(float reach, int next, int last) {
   const float above_bottom = next < 0 ? endless : reach;
-  const float to_boundary = next > tables.last ? endless : above_bottom;
-  const float shortest = smaller(smaller(to_scatter, to_absorb), to_boundary);
-  const float length = going != 0 ? shortest : 0;
-  lanes.length[i] += length;
-  lanes.diffusion[i] += length * tables.diffusion[layer];
-  lanes.deflection[i] += length * tables.deflection[layer];
-  lanes.scattering_depth[i] -= length * scattering;
-  lanes.absorption_depth[i] -= length * absorption;
-  lanes.absorbed[i] = to_absorb <= to_scatter ? 1 : 0;
-  const std::int32_t crosses = to_boundary <= length ? going : 0;
+  return next > last ? endless : above_bottom;
+}
+
+// Takes one lane's segment, of which `piece` was the part before, through the layer it goes on into.
+inline std::int32_t through_next_layer(const float* layer_row, std::ptrdiff_t stride, Lanes& lanes, int i,
+                                       float factor, float through, int last, std::int32_t going) {
+  const auto value = [&](IceView::LayerColumn column) { return layer_row[column * stride]; };
+  const float scattering =
+      value(IceView::scattering_constant) + value(IceView::scattering_power) * lanes.scattering_power[i];
+  const float absorption = factor * (value(IceView::absorption_dust) * lanes.absorption_dust[i] +
+                                     value(IceView::absorption_thermal) * lanes.absorption_thermal[i]);
+  const int layer = lanes.layer[i], next = layer + (lanes.nz[i] > 0 ? 1 : -1);
+  const Piece piece = piece_of(scattering, absorption, lanes.scattering_depth[i], lanes.absorption_depth[i],
+                               limited_reach(through, next, last));
+  const float share = going != 0 ? 1 : 0;
+  lanes.length[i] += share * piece.length;
+  lanes.diffusion[i] += share * piece.length * value(IceView::diffusion);
+  lanes.deflection[i] += share * piece.length * value(IceView::deflection);
+  lanes.scattering_depth[i] -= share * piece.scattering_depth;
+  lanes.absorption_depth[i] -= share * piece.absorption_depth;
+  lanes.absorbed[i] = going != 0 ? piece.absorbed : lanes.absorbed[i];
+  const std::int32_t crosses = going & piece.crosses;
   lanes.layer[i] = crosses != 0 ? next : layer;
   return crosses;
 }
 
 }  // namespace
 
-void find_segments(const IceView& ice, Lanes& lanes) {
-  const LayerTables tables{ice.scattering_constant.data(),
-                           ice.scattering_power.data(),
-                           ice.absorption_dust.data(),
-                           ice.absorption_thermal.data(),
-                           ice.diffusion.data(),
-                           ice.deflection.data(),
-                           ice.last_layer};
-  const float step = ice.step, lowest_of_top = static_cast<float>(ice.last_layer);
-  alignas(64) float reach[N], through[N];  // to the boundary of the first layer; through a whole layer [m]
+void draw_scattering_depths(Lanes& lanes) {
 #pragma omp simd
-  for (int i = 0; i < N; ++i) {
-    lanes.layer[i] = static_cast<std::int32_t>(smaller(larger(lanes.height[i], 0), lowest_of_top));
-    const float slope = slope_of(lanes.nz[i]);
-    const float boundary = static_cast<float>(lanes.layer[i] + (slope > 0 ? 1 : 0));
-    through[i] = step / std::fabs(slope);
-    reach[i] = larger(0, (boundary - lanes.height[i]) * step / slope);
-    lanes.length[i] = 0;
-    lanes.diffusion[i] = 0;
-    lanes.deflection[i] = 0;
-  }
-  alignas(64) float factor[N];
+  for (int i = 0; i < N; ++i) lanes.scattering_depth[i] = -natural_log(draw(lanes, i));
+}
+
+void find_segments(const IceView& ice, Lanes& lanes) {
+  const TableRow* rows = ice.layers.data();
+  const float step = ice.step, top = static_cast<float>(ice.last_layer);
+  const int last = ice.last_layer;
+#pragma omp simd
+  for (int i = 0; i < N; ++i)
+    lanes.layer[i] = static_cast<std::int32_t>(smaller(larger(lanes.height[i], 0), top));
+  alignas(64) Columns layer;
+  fetch_rows(rows, lanes.layer, layer);
+  alignas(64) float factor[N], through[N];  // through: a whole layer [m]
   anisotropic_absorption(ice, lanes, factor);
 
-  // Nearly all segments end in their first or second layer; the others go on one at a time.
+  // The first layer, from wherever in it the segment starts.
   alignas(64) std::int32_t going[N];
 #pragma omp simd
-  for (int i = 0; i < N; ++i) going[i] = through_layer(tables, lanes, i, factor[i], reach[i], 1);
+  for (int i = 0; i < N; ++i) {
+    const float per_slope = step / slope_of(lanes.nz[i]);
+    const int up = lanes.nz[i] > 0 ? 1 : 0, next = lanes.layer[i] + 2 * up - 1;
+    const float boundary = static_cast<float>(lanes.layer[i] + up);
+    const float reach = larger(0, (boundary - lanes.height[i]) * per_slope);
+    through[i] = std::fabs(per_slope);
+    const float scattering = layer[IceView::scattering_constant][i] +
+                             layer[IceView::scattering_power][i] * lanes.scattering_power[i];
+    const float absorption =
+        factor[i] * (layer[IceView::absorption_dust][i] * lanes.absorption_dust[i] +
+                     layer[IceView::absorption_thermal][i] * lanes.absorption_thermal[i]);
+    const Piece piece = piece_of(scattering, absorption, lanes.scattering_depth[i], lanes.absorption_depth[i],
+                                 limited_reach(reach, next, last));
+    lanes.length[i] = piece.length;
+    lanes.diffusion[i] = piece.length * layer[IceView::diffusion][i];
+    lanes.deflection[i] = piece.length * layer[IceView::deflection][i];
+    lanes.scattering_depth[i] -= piece.scattering_depth;
+    lanes.absorption_depth[i] -= piece.absorption_depth;
+    lanes.absorbed[i] = piece.absorbed;
+    going[i] = piece.crosses;
+    lanes.layer[i] = piece.crosses != 0 ? next : lanes.layer[i];
+  }
+
+  // Nearly all segments end in their first or second layer; the others go on one at a time.
+  fetch_rows(rows, lanes.layer, layer);
 #pragma omp simd
-  for (int i = 0; i < N; ++i) going[i] = through_layer(tables, lanes, i, factor[i], through[i], going[i]);
   for (int i = 0; i < N; ++i)
-    while (going[i] != 0) going[i] = through_layer(tables, lanes, i, factor[i], through[i], 1);
+    going[i] = through_next_layer(&layer[0][i], N, lanes, i, factor[i], through[i], last, going[i]);
+  for (int i = 0; i < N; ++i)
+    while (going[i] != 0)
+      going[i] = through_next_layer(rows[lanes.layer[i]].values, 1, lanes, i, factor[i], through[i], last, 1);
 }
 
 void find_reach(const ClearanceMap::View& clearance, Lanes& lanes) {
@@ -149,31 +171,41 @@ void advance(Lanes& lanes) {
   }
 }
 
+// Where the lanes' directions lie in the birefringence tables.
+void look_up_birefringence(const IceView& ice, const Lanes& lanes, float* share, Columns& columns) {
+  alignas(64) std::int32_t index[N];
+  const float flow_x = ice.flow_x, flow_y = ice.flow_y;
+  constexpr float intervals = IceView::birefringence_intervals;
+#pragma omp simd
+  for (int i = 0; i < N; ++i) {
+    const float cosine = std::fabs(flow_x * lanes.nx[i] + flow_y * lanes.ny[i]);
+    const float place = smaller(cosine * intervals, intervals - 0.001f);
+    index[i] = static_cast<std::int32_t>(place);
+    share[i] = place - static_cast<float>(index[i]);
+  }
+  fetch_rows(ice.birefringence.data(), index, columns);
+}
+
 void birefringent_step(const IceView& ice, Lanes& lanes) {
-  const float *sigma_x = ice.sigma_x.value.data(), *sigma_x_change = ice.sigma_x.change.data();
-  const float *sigma_y = ice.sigma_y.value.data(), *sigma_y_change = ice.sigma_y.change.data();
-  const float *drift = ice.drift.value.data(), *drift_change = ice.drift.change.data();
+  alignas(64) Columns table;
+  alignas(64) float share[N];
+  look_up_birefringence(ice, lanes, share, table);
   const float flow_x = ice.flow_x, flow_y = ice.flow_y;
   const float displaced = ice.displacement ? 1.0f : 0.0f;
 #pragma omp simd
   for (int i = 0; i < N; ++i) {
-    const float radius_12 = std::sqrt(-2 * std::log(draw(lanes, i)));
+    const float radius_12 = std::sqrt(-2 * natural_log(draw(lanes, i)));
     const TurnFunctions<float> turn_12 = turn_functions(draw(lanes, i));
-    const float radius_34 = std::sqrt(-2 * std::log(draw(lanes, i)));
+    const float radius_34 = std::sqrt(-2 * natural_log(draw(lanes, i)));
     const TurnFunctions<float> turn_34 = turn_functions(draw(lanes, i));
 
-    const float cosine = smaller(1, std::fabs(flow_x * lanes.nx[i] + flow_y * lanes.ny[i]));
-    const float steep = cosine * std::sqrt(1 - cosine * cosine);
-    const float place = cosine * IceView::birefringence_intervals;
-    const int floor = static_cast<int>(place);
-    const int index = floor < IceView::birefringence_intervals ? floor : IceView::birefringence_intervals - 1;
-    const float w = place - static_cast<float>(index);
+    const FlowFrame<float> frame = flow_frame(flow_x, flow_y, lanes.nx[i], lanes.ny[i], lanes.nz[i]);
     const float width = std::sqrt(larger(0, lanes.diffusion[i]));
-    const float across_x = width * (sigma_x[index] + w * sigma_x_change[index]);
-    const float across_y = width * (sigma_y[index] + w * sigma_y_change[index]);
-    const float mean_x = lanes.deflection[i] * steep * (drift[index] + w * drift_change[index]);
-
-    birefringent_deflection(across_x, across_y, mean_x, flow_x, flow_y, radius_12 * turn_12.cosine,
+    const float sigma_x = width * (table[IceView::sigma_x][i] + share[i] * table[IceView::sigma_x_change][i]);
+    const float sigma_y = width * (table[IceView::sigma_y][i] + share[i] * table[IceView::sigma_y_change][i]);
+    const float mean_x = lanes.deflection[i] * frame.cosine * frame.sine *
+                         (table[IceView::drift][i] + share[i] * table[IceView::drift_change][i]);
+    birefringent_deflection(frame, sigma_x, sigma_y, mean_x, radius_12 * turn_12.cosine,
                             radius_12 * turn_12.sine, radius_34 * turn_34.cosine, radius_34 * turn_34.sine,
                             displaced * lanes.length[i], lanes.nx[i], lanes.ny[i], lanes.nz[i], lanes.x[i],
                             lanes.y[i], lanes.z[i]);
@@ -182,14 +214,15 @@ void birefringent_step(const IceView& ice, Lanes& lanes) {
 
 // Into the stretched space of anisotropic scattering (sign +1) and back (sign -1).
 void stretch(const IceView& ice, Lanes& lanes, float sign) {
-  const float* k1 = ice.k1.data();
-  const float* k2 = ice.k2.data();
+  alignas(64) Columns layer;
+  fetch_rows(ice.layers.data(), lanes.layer, layer);
 #pragma omp simd
   for (int i = 0; i < N; ++i) {
     float n1 = ice.flow_x * lanes.nx[i] + ice.flow_y * lanes.ny[i];
     float n2 = -ice.flow_y * lanes.nx[i] + ice.flow_x * lanes.ny[i];
     float n3 = lanes.nz[i];
-    stretch_direction(std::exp(sign * k1[lanes.layer[i]]), std::exp(sign * k2[lanes.layer[i]]), n1, n2, n3);
+    stretch_direction(std::exp(sign * layer[IceView::k1][i]), std::exp(sign * layer[IceView::k2][i]), n1, n2,
+                      n3);
     lanes.nx[i] = ice.flow_x * n1 - ice.flow_y * n2;
     lanes.ny[i] = ice.flow_y * n1 + ice.flow_x * n2;
     lanes.nz[i] = n3;

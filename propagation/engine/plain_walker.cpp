@@ -156,14 +156,14 @@ class PlainWalker : public PhotonWalker {
     const BirefringenceNumbers& numbers = *ice_.birefringence();
     const auto [g1, g2] = gaussian_pair(random);
     const auto [g3, g4] = gaussian_pair(random);
-    const double cos_eta = std::abs(flow_.x() * photon.direction.x() + flow_.y() * photon.direction.y());
-    const DiffusionStep one_metre = diffusion_step(numbers, std::min(cos_eta, 1.0));
+    Vec3 &n = photon.direction, &r = photon.position;
+    const auto frame = flow_frame(flow_.x(), flow_.y(), n.x(), n.y(), n.z());
+    const DiffusionStep one_metre = diffusion_step(numbers, std::min(frame.cosine, 1.0));
     const double width = numbers.diffusion ? std::sqrt(segment.diffusion) : 0.0;
     const double drift = numbers.deflection ? segment.deflection : 0.0;
-    Vec3 &n = photon.direction, &r = photon.position;
-    birefringent_deflection(width * one_metre.sigma_x, width * one_metre.sigma_y, drift * one_metre.mean_x,
-                            flow_.x(), flow_.y(), g1, g2, g3, g4, numbers.displacement ? segment.length : 0.0,
-                            n.x(), n.y(), n.z(), r.x(), r.y(), r.z());
+    birefringent_deflection(
+        frame, width * one_metre.sigma_x, width * one_metre.sigma_y, drift * one_metre.mean_x, g1, g2, g3, g4,
+        numbers.displacement ? segment.length : 0.0, n.x(), n.y(), n.z(), r.x(), r.y(), r.z());
   }
 
   void scatter(Photon& photon, int layer, RandomStream& random) const {

@@ -1,7 +1,7 @@
 // One scattering off dust or air bubbles: the angle's distribution (arXiv:1301.5361 section 3).
 #pragma once
 
-#include <cmath>
+#include "propagation/engine/vector_math.h"
 
 namespace floe {
 
@@ -11,17 +11,21 @@ template <typename Scalar>
 struct ScatteringFunction {
   Scalar liu_fraction, g;
   Scalar liu_exponent = (1 - g) / (1 + g);
+  Scalar per_liu = liu_fraction > 0 ? 1 / liu_fraction : Scalar(1);
+  Scalar per_rest = liu_fraction < 1 ? 1 / (1 - liu_fraction) : Scalar(1);
 
   // 1 - cos(theta) in [0, 2] from one uniform number in (0, 1).
   Scalar one_minus_cos(Scalar u) const {
-    const bool is_liu = u < liu_fraction;
-    const Scalar v = is_liu ? u / liu_fraction : (u - liu_fraction) / (1 - liu_fraction);
-    const Scalar liu = 2 - 2 * std::exp(liu_exponent * std::log(v));
+    // Both are computed, from where u lies in either's share, and one is kept: by a factor, because
+    // compilers make a branch of a choice between long expressions.
+    const Scalar is_liu = u < liu_fraction ? Scalar(1) : Scalar(0);
+    const Scalar liu = 2 - 2 * decay(liu_exponent * natural_log(u * per_liu));
     // Henyey-Greenstein, cos = (1 + g^2 - ((1 - g^2)/p)^2)/(2g) with p = 1 - g + 2 g v, rearranged so that
     // small angles and g = 0 lose no digits.
+    const Scalar beyond = (u - liu_fraction) * per_rest, v = beyond < 0 ? Scalar(0) : beyond;
     const Scalar p = 1 - g + 2 * g * v;
     const Scalar henyey_greenstein = 2 * (1 - v) * (1 - g) * (1 - g) * (1 + g * v) / (p * p);
-    const Scalar x = is_liu ? liu : henyey_greenstein;
+    const Scalar x = is_liu * liu + (1 - is_liu) * henyey_greenstein;
     return x < 0 ? Scalar(0) : x > 2 ? Scalar(2) : x;
   }
 };

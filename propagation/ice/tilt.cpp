@@ -66,17 +66,45 @@ Polygon outline(const TiltMap& map) {
   return clipped(clipped(rectangle, first_cut), second_cut);
 }
 
+// The shift in a column of depth rows, top first: at row `below` and its change to the row above.
+void enter_knot(const std::vector<std::vector<double>>& shifts, int below, int column,
+                float* value_and_change) {
+  value_and_change[0] = static_cast<float>(shifts[below][column]);
+  value_and_change[1] = static_cast<float>(shifts[below - 1][column] - shifts[below][column]);
+}
+
+// Which column of shifts belongs to a grid point: [j * count + i], -1 for none. A place on the border may, by
+// rounding, seem to lie in the cell beyond: the cut points next to the border repeat the value of the kept
+// point reached along the diagonal's normal.
+std::vector<int> columns_of(const TiltMap& map) {
+  const int width = map.first.count, height = map.second.count;
+  std::vector<int> columns(static_cast<std::size_t>(width) * height, -1);
+  int column = 0;
+  for (int j = 0; j < height; ++j)
+    for (int i = 0; i < width; ++i)
+      if (ice_files::is_kept(map, i, j)) columns[j * width + i] = column++;
+  for (int j = 0; j < height; ++j)
+    for (int i = 0; i < width; ++i) {
+      if (ice_files::is_kept(map, i, j)) continue;
+      const bool first_corner = i >= j + map.first.cut;
+      const int ni = first_corner ? i - 1 : i, nj = first_corner ? j : j - 1;
+      columns[j * width + i] = columns[nj * width + ni];
+    }
+  return columns;
+}
+
 }  // namespace
 
 LayerTilt::LayerTilt(const IceTables& tables, const Detector& detector) {
   if (tables.tilt_map) {
     kind_ = Kind::map;
-    set_knots(tables.tilt_map->depths, tables.tilt_map->shifts);
+    set_depths(tables.tilt_map->depths);
     set_grid(*tables.tilt_map);
+    set_map_cells(*tables.tilt_map);
   } else if (tables.tilt_lines) {
     kind_ = Kind::lines;
-    set_knots(tables.tilt_lines->depths, tables.tilt_lines->shifts);
-    distances_.assign(tables.tilt_lines->distances.begin(), tables.tilt_lines->distances.end());
+    set_depths(tables.tilt_lines->depths);
+    set_line_cells(*tables.tilt_lines);
     const Eigen::Vector2d direction = direction_of(lines_direction);
     direction_x_ = static_cast<float>(direction.x());
     direction_y_ = static_cast<float>(direction.y());
@@ -84,18 +112,24 @@ LayerTilt::LayerTilt(const IceTables& tables, const Detector& detector) {
   }
 }
 
-void LayerTilt::set_knots(const std::vector<double>& depths, const std::vector<std::vector<double>>& shifts) {
+void LayerTilt::set_depths(const std::vector<double>& depths) {
   rows_ = static_cast<int>(depths.size()) - 1;
-  columns_ = static_cast<int>(shifts.front().size());
   z_bottom_ = static_cast<float>(origin_depth - depths.back());
   rows_per_metre_ = static_cast<float>(rows_ / (depths.back() - depths.front()));
-  for (int row = 0; row < rows_; ++row) {
-    const auto &below = shifts[rows_ - row], &above = shifts[rows_ - row - 1];
-    for (int column = 0; column < columns_; ++column) {
-      values_.push_back(static_cast<float>(below[column]));
-      slopes_.push_back(static_cast<float>(above[column] - below[column]));
+}
+
+void LayerTilt::set_line_cells(const TiltLines& lines) {
+  distances_.assign(lines.distances.begin(), lines.distances.end());
+  cells_ = static_cast<int>(distances_.size()) - 1;
+  for (int row = 0; row < rows_; ++row)
+    for (int cell = 0; cell < cells_; ++cell) {
+      TableRow entry{};
+      for (int side = 0; side < 2; ++side)
+        enter_knot(lines.shifts, rows_ - row, cell + side, entry.values + 2 * side);
+      entry.values[4] = distances_[cell];
+      entry.values[5] = static_cast<float>(1 / (lines.distances[cell + 1] - lines.distances[cell]));
+      shifts_.push_back(entry);
     }
-  }
 }
 
 void LayerTilt::set_grid(const TiltMap& map) {
@@ -110,7 +144,6 @@ void LayerTilt::set_grid(const TiltMap& map) {
   index_offset_ = {float(offset.x()), float(offset.y())};
   count_ = {map.first.count, map.second.count};
   cut_ = {map.first.cut, map.second.cut};
-  set_columns(map);
 
   const Eigen::Matrix2d to_space = axes * step.asDiagonal(), metric = to_space.transpose() * to_space;
   metric_ = {float(metric(0, 0)), float(metric(0, 1)), float(metric(1, 1))};
@@ -126,21 +159,20 @@ void LayerTilt::set_grid(const TiltMap& map) {
   }
 }
 
-void LayerTilt::set_columns(const TiltMap& map) {
-  column_of_.assign(static_cast<std::size_t>(count_[0]) * count_[1], -1);
-  int column = 0;
-  for (int j = 0; j < count_[1]; ++j)
-    for (int i = 0; i < count_[0]; ++i)
-      if (ice_files::is_kept(map, i, j)) column_of_[j * count_[0] + i] = column++;
-  // A place on the border may, by rounding, seem to lie in the cell beyond: the cut points next to the
-  // border repeat the value of the kept point reached along the diagonal's normal.
-  for (int j = 0; j < count_[1]; ++j)
-    for (int i = 0; i < count_[0]; ++i) {
-      if (ice_files::is_kept(map, i, j)) continue;
-      const bool first_corner = i >= j + cut_[0];
-      const int ni = first_corner ? i - 1 : i, nj = first_corner ? j : j - 1;
-      column_of_[j * count_[0] + i] = column_of_[nj * count_[0] + ni];
-    }
+void LayerTilt::set_map_cells(const TiltMap& map) {
+  const std::vector<int> columns = columns_of(map);
+  const int width = map.first.count;
+  cells_ = (width - 1) * (map.second.count - 1);
+  for (int row = 0; row < rows_; ++row)
+    for (int j = 0; j + 1 < map.second.count; ++j)
+      for (int i = 0; i + 1 < width; ++i) {
+        TableRow entry{};
+        for (int corner = 0; corner < 4; ++corner) {
+          const int column = columns[(j + corner / 2) * width + i + corner % 2];
+          if (column >= 0) enter_knot(map.shifts, rows_ - row, column, entry.values + 2 * corner);
+        }
+        shifts_.push_back(entry);
+      }
 }
 
 // The outline is convex: a place outside has its nearest point inside a side when it lies straight out from

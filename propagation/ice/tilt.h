@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geometry/detector.h"
+#include "propagation/engine/table_rows.h"
 #include "propagation/ice/ice_tables.h"
 
 namespace floe {
@@ -35,9 +36,10 @@ class LayerTilt {
     float i, j, along_i, along_j, gradient_i, gradient_j;
   };
 
-  void set_knots(const std::vector<double>& depths, const std::vector<std::vector<double>>& shifts);
+  void set_depths(const std::vector<double>& depths);
+  void set_line_cells(const TiltLines& lines);
   void set_grid(const TiltMap& map);
-  void set_columns(const TiltMap& map);
+  void set_map_cells(const TiltMap& map);
 
   static constexpr int block = 64;  // places that are looked up together
   void lines_shifts(const float* x, const float* y, const float* z, float* shift, int count) const;
@@ -45,10 +47,12 @@ class LayerTilt {
   void move_to_border(float& i, float& j) const;
 
   Kind kind_ = Kind::flat;
-  int rows_ = 0, columns_ = 0;  // rows: intervals of depth, bottom first
+  int rows_ = 0, cells_ = 0;  // rows: intervals of depth, bottom first; cells in each
   float z_bottom_ = 0, rows_per_metre_ = 0;
-  // At a depth row's lower end, and the change per row upwards: [row * columns + column].
-  std::vector<float> values_, slopes_;
+  // A cell's shifts at the row's lower end and their changes to its upper end: [row * cells + cell].
+  // 1D: left value, change, right value, change, distance of the left end, 1/width.
+  // 2D: value and change at the corners (i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1).
+  std::vector<TableRow> shifts_;
 
   // 1D
   float direction_x_ = 0, direction_y_ = 0, origin_ = 0;
@@ -59,7 +63,6 @@ class LayerTilt {
   std::array<float, 2> index_offset_{};
   std::array<float, 3> metric_{};  // squared distance in space = m0 di^2 + 2 m1 di dj + m2 dj^2
   std::array<int, 2> count_{}, cut_{};
-  std::vector<int> column_of_;  // [j * count0 + i]; cut points repeat their kept neighbour
   std::vector<Edge> border_;
 };
 

@@ -37,7 +37,8 @@ TEST_P(BirefringentStepTest, HasTheMomentsOfItsEquations) {
   Eigen::Matrix4d square = Eigen::Matrix4d::Zero();
   for (int i = 0; i < draws; ++i) {
     Vec3 n = n0, r = Vec3::Zero();
-    birefringent_deflection(sigma_x, sigma_y, mean_x, flow.x(), flow.y(), gauss(generator), gauss(generator),
+    const auto frame = flow_frame(flow.x(), flow.y(), n.x(), n.y(), n.z());
+    birefringent_deflection(frame, sigma_x, sigma_y, mean_x, gauss(generator), gauss(generator),
                             gauss(generator), gauss(generator), length, n.x(), n.y(), n.z(), r.x(), r.y(),
                             r.z());
     ASSERT_NEAR(n.norm(), 1, 1e-12);
@@ -79,8 +80,8 @@ TEST(BirefringentStep, ProjectsStereographically) {
 
 TEST(BirefringentStep, IsFiniteAlongTheFlow) {
   float n[3] = {1, 0, 0}, r[3] = {0, 0, 0};
-  birefringent_deflection(0.01f, 0.01f, 0.0f, 1.0f, 0.0f, 1.0f, 1.0f, 1.0f, 1.0f, 2.0f, n[0], n[1], n[2],
-                          r[0], r[1], r[2]);
+  birefringent_deflection(flow_frame(1.0f, 0.0f, n[0], n[1], n[2]), 0.01f, 0.01f, 0.0f, 1.0f, 1.0f, 1.0f,
+                          1.0f, 2.0f, n[0], n[1], n[2], r[0], r[1], r[2]);
   EXPECT_NEAR(std::hypot(n[1], n[2]), 0.01 * std::sqrt(2.0), 1e-5);
 }
 
@@ -91,18 +92,19 @@ TEST(IceView, TabulatesTheDiffusionFunctions) {
   for (IceLayerRow& row : tables.layers) row.effective_scattering = 0.1;
   const Model model = test::make_model(tables, {Vec3::Zero()});
   const IceView view(*model.ice);
-  const auto table_at = [](const IceView::Table& table, double cosine) {
+  const auto table_at = [&view](IceView::BirefringenceColumn column, double cosine) {
     const double place = cosine * IceView::birefringence_intervals;
     const int index = std::min(static_cast<int>(place), IceView::birefringence_intervals - 1);
-    return table.value[index] + (place - index) * table.change[index];
+    const float* row = view.birefringence[index].values;  // the change is the next column
+    return row[column] + (place - index) * row[column + 1];
   };
   double worst = 0;
   for (int i = 1; i < 10000; ++i) {
     const double cosine = i / 10000.0, steep = cosine * std::sqrt(1 - cosine * cosine);
     const DiffusionStep exact = diffusion_step(*tables.configuration.birefringence, cosine);
-    worst = std::max({worst, std::abs(table_at(view.sigma_x, cosine) / exact.sigma_x - 1),
-                      std::abs(table_at(view.sigma_y, cosine) / exact.sigma_y - 1)});
-    EXPECT_NEAR(table_at(view.drift, cosine) * steep, exact.mean_x, 2e-3 * 0.01) << cosine;
+    worst = std::max({worst, std::abs(table_at(IceView::sigma_x, cosine) / exact.sigma_x - 1),
+                      std::abs(table_at(IceView::sigma_y, cosine) / exact.sigma_y - 1)});
+    EXPECT_NEAR(table_at(IceView::drift, cosine) * steep, exact.mean_x, 2e-3 * 0.01) << cosine;
   }
   EXPECT_LT(worst, 2e-3);
 }
