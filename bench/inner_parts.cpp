@@ -20,6 +20,7 @@
 #include "bench/scatter_bound.h"
 #include "bench/statistics.h"
 #include "bench/vector_costs.h"
+#include "geometry/column_finder.h"
 #include "geometry/module_scene.h"
 #include "propagation/engine/lane_steps.h"
 #include "propagation/ice/ice_files.h"
@@ -81,6 +82,7 @@ class Bench {
         view_(*model_.ice),
         view_without_birefringence_(view_),
         clearance_(*model_.detector, oversize),
+        column_finder_(*model_.detector, oversize),
         finder_(make_embree_finder(*model_.detector, oversize)),
         flasher_(*model_.detector, {63, 20}, flasher_settings(), reference_led_line()),
         cascade_({{20, -40, -300}, 0, 70 * degree, 130 * degree, 50000}, model_.acceptance.spectrum),
@@ -220,14 +222,12 @@ class Bench {
       const std::size_t lane = i++ % Lanes::count;
       benchmark::DoNotOptimize(clearance_.at(lanes.x[lane], lanes.y[lane], lanes.z[lane]));
     });
-    add("nearest module alone", 1, [this, i = std::size_t{0}]() mutable {
+    add("nearest column alone", 1, [this, i = std::size_t{0}]() mutable {
       const RecordedSegment& s = states_.near_one[i++ % states_.near_one.size()];
-      ModuleCrossing crossing{s.nearest_module, 0, {}};
-      const Vec3f centre = model_.detector->modules()[s.nearest_module].position.cast<float>();
-      benchmark::DoNotOptimize(
-          cross_module(centre, static_cast<float>(oversize), s.origin, s.direction, s.length, crossing));
+      crossings_.clear();
+      column_finder_.find(s.nearest_module, s.origin, s.direction, s.length, crossings_);
     });
-    add("Embree near several modules", 1, [this, i = std::size_t{0}]() mutable {
+    add("Embree near several columns", 1, [this, i = std::size_t{0}]() mutable {
       const RecordedSegment& s = states_.near_more[i++ % states_.near_more.size()];
       crossings_.clear();
       finder_->find(s.origin, s.direction, s.length, crossings_);
@@ -237,6 +237,7 @@ class Bench {
   Model model_;
   IceView view_, view_without_birefringence_;
   ClearanceMap clearance_;
+  ColumnFinder column_finder_;
   std::unique_ptr<ModuleFinder> finder_;
   FlasherSource flasher_;
   CascadeSource cascade_;

@@ -20,6 +20,7 @@ class LaneWalk {
   }
 
   const Lanes& lanes() const { return lanes_; }
+  std::uint64_t may_meet() const { return may_meet_; }
 
   void draw() {
     draw_scattering_depths(lanes_);
@@ -30,7 +31,7 @@ class LaneWalk {
   }
   void find(const ClearanceMap& clearance) {
     find_segments(ice_, lanes_);
-    find_reach(clearance.view(), lanes_);
+    may_meet_ = find_reach(clearance.view(), lanes_).may_meet;
   }
   void go() {
     advance_and_scatter(ice_, lanes_);
@@ -63,12 +64,13 @@ class LaneWalk {
   const LayerTilt& tilt_;
   IceView ice_;
   Lanes lanes_{};
+  std::uint64_t may_meet_ = 0;
   std::uint64_t next_ = 0;
 };
 
-void note_segments(const Lanes& lanes, RecordedStates& states) {
+void note_segments(const Lanes& lanes, std::uint64_t may_meet, RecordedStates& states) {
   for (int i = 0; i < Lanes::count; ++i) {
-    if (!lanes.may_meet[i]) continue;
+    if ((may_meet >> i & 1) == 0) continue;
     auto& segments = lanes.may_meet_others[i] ? states.near_more : states.near_one;
     if (segments.size() == most_segments) continue;
     segments.push_back({{lanes.x[i], lanes.y[i], lanes.z[i]},
@@ -95,7 +97,7 @@ RecordedStates record_states(const Model& model, const Source& source, const Cle
     if (keeps) states.drawn.push_back(walk.lanes());
     walk.find(clearance);
     if (keeps) states.found.push_back(walk.lanes());
-    if (step >= warm_up) note_segments(walk.lanes(), states);
+    if (step >= warm_up) note_segments(walk.lanes(), walk.may_meet(), states);
     walk.go();
   }
   return states;

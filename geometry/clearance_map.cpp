@@ -1,9 +1,6 @@
 #include "geometry/clearance_map.h"
 
 #include <algorithm>
-#include <limits>
-#include <map>
-#include <utility>
 
 #include "data/base/constants.h"
 #include "geometry/crossing_order.h"
@@ -15,16 +12,16 @@ namespace {
 constexpr float finest_cell = 2;                // [m]
 constexpr std::size_t largest_table = 4 << 20;  // [cells]; wider detectors get coarser cells
 constexpr float rounding = 5e-3F;               // single precision, 10 km from the origin [m]
-// Detectors with more modules, or whose modules hang in more places, do without the tables along columns.
-constexpr std::size_t most_modules = 60000, most_columns = 2000;
+// Detectors whose modules hang in more columns do without the tables along them.
+constexpr std::size_t most_columns = 2000;
 
 std::size_t cells_over(float length, float cell) {
   return static_cast<std::size_t>(std::ceil(length / cell));
 }
 
-// A packed entry of either table.
-std::uint32_t packed(std::uint32_t nearest, std::uint32_t second, std::uint32_t index) {
-  return nearest | second << 8 | index << 16;
+// An entry of the grid.
+std::uint32_t packed(std::uint32_t nearest, std::uint32_t second, std::uint32_t column) {
+  return nearest | second << 8 | column << 16;
 }
 
 float outside(float x, float low, float high) {
@@ -33,34 +30,21 @@ float outside(float x, float low, float high) {
 
 }  // namespace
 
-std::vector<ClearanceMap::Column> ClearanceMap::columns_of(const Detector& detector) {
-  std::map<std::pair<float, float>, Column> by_place;
-  for (std::size_t i = 0; i < detector.size(); ++i) {
-    const Vec3f position = detector.modules()[i].position.cast<float>();
-    Column& column = by_place[{position.x(), position.y()}];
-    column.x = position.x();
-    column.y = position.y();
-    column.modules.emplace_back(position.z(), static_cast<std::uint32_t>(i));
-  }
-  std::vector<Column> columns;
-  for (auto& [place, column] : by_place) columns.push_back(std::move(column));
-  return columns;
-}
-
 ClearanceMap::ClearanceMap(const Detector& detector, double oversize) {
   check_oversize(oversize);
   const auto extent = detector.extent();
   const Vec3f low = extent.low.cast<float>(), high = extent.high.cast<float>();
   view_.low_x = low.x(), view_.low_y = low.y(), view_.low_z = low.z();
   view_.high_x = high.x(), view_.high_y = high.y(), view_.high_z = high.z();
-  view_.reach = static_cast<float>(oversize * module_radius) + rounding;
+  view_.reach_ = static_cast<float>(oversize * module_radius) + rounding;
   lay_out_grid();
-  const std::vector<Column> columns = columns_of(detector);
-  const bool with_slices = columns.size() <= most_columns && detector.size() <= most_modules;
+  const std::vector<ModuleColumn> columns = columns_of(detector);
+  const bool with_slices = columns.size() <= most_columns;
   for (std::size_t i = 0; i < columns.size(); ++i)
-    enter_column(with_slices ? static_cast<std::uint32_t>(i) : 0, columns[i].x, columns[i].y);
-  // Without tables along columns all share one in which a module is everywhere.
-  enter_slices(with_slices ? columns : std::vector<Column>(1));
+    enter_column(with_slices ? static_cast<std::uint32_t>(i) : 0, columns[i]);
+  if (!with_slices)  // all columns are as one, in which a module is everywhere and others are, too
+    for (std::uint32_t& cell : cells_) cell = packed(cell & 255, cell & 255, 0);
+  enter_slices(with_slices ? columns : std::vector<ModuleColumn>(1));
   view_.cells = cells_.data();
   view_.slices = slices_.data();
 }
@@ -82,23 +66,25 @@ void ClearanceMap::lay_out_grid() {
   cells_.assign(columns * rows, packed(far, far, 0));
 }
 
-// Enters a place where modules hang into the cells around it; farther cells keep the largest distance.
-void ClearanceMap::enter_column(std::uint32_t index, float x, float y) {
+// Enters a column into the cells around it; farther cells keep the largest distance.
+void ClearanceMap::enter_column(std::uint32_t index, const ModuleColumn& entered) {
   const auto columns = static_cast<std::size_t>(view_.columns), rows = cells_.size() / columns;
-  const auto first = [&](float low, float start) {
-    return static_cast<std::size_t>(std::max(0.0F, (low - farthest - start) * view_.per_cell));
+  const float range = farthest + entered.radius;
+  const auto first = [&](float place, float start) {
+    return static_cast<std::size_t>(std::max(0.0F, (place - range - start) * view_.per_cell));
   };
-  const auto end = [&](float high, float start, std::size_t count) {
-    return std::min(count, static_cast<std::size_t>((high + farthest - start) * view_.per_cell) + 1);
+  const auto end = [&](float place, float start, std::size_t count) {
+    return std::min(count, static_cast<std::size_t>((place + range - start) * view_.per_cell) + 1);
   };
-  for (std::size_t row = first(y, view_.y0); row < end(y, view_.y0, rows); ++row) {
+  for (std::size_t row = first(entered.y, view_.y0); row < end(entered.y, view_.y0, rows); ++row) {
     const float south = view_.y0 + static_cast<float>(row) * cell_;
-    const float dy = outside(y, south, south + cell_);
-    for (std::size_t column = first(x, view_.x0); column < end(x, view_.x0, columns); ++column) {
+    const float dy = outside(entered.y, south, south + cell_);
+    for (std::size_t column = first(entered.x, view_.x0); column < end(entered.x, view_.x0, columns);
+         ++column) {
       const float west = view_.x0 + static_cast<float>(column) * cell_;
-      const float dx = outside(x, west, west + cell_);
-      const auto distance =
-          static_cast<std::uint32_t>(std::min(std::sqrt(dx * dx + dy * dy), farthest) / step);
+      const float dx = outside(entered.x, west, west + cell_);
+      const float aside = std::max(std::sqrt(dx * dx + dy * dy) - entered.radius, 0.0F);
+      const auto distance = static_cast<std::uint32_t>(std::min(aside, farthest) / step);
       std::uint32_t& cell = cells_[row * columns + column];
       const std::uint32_t nearest = cell & 255, second = (cell >> 8) & 255;
       cell = distance < nearest ? packed(distance, nearest, index)
@@ -107,7 +93,7 @@ void ClearanceMap::enter_column(std::uint32_t index, float x, float y) {
   }
 }
 
-void ClearanceMap::enter_slices(const std::vector<Column>& columns) {
+void ClearanceMap::enter_slices(const std::vector<ModuleColumn>& columns) {
   const auto count = static_cast<std::size_t>((view_.high_z - view_.low_z) / slice) + 1;
   view_.slice_count = static_cast<std::int32_t>(count);
   view_.per_slice = 1 / slice;
@@ -116,20 +102,13 @@ void ClearanceMap::enter_slices(const std::vector<Column>& columns) {
   for (std::size_t column = 0; column < columns.size(); ++column)
     for (std::size_t i = 0; i < count && !columns[column].modules.empty(); ++i) {
       const float bottom = view_.low_z + static_cast<float>(i) * slice;
-      float nearest = farthest, next = farthest;
-      std::uint32_t module = 0;
-      for (const auto& [z, index] : columns[column].modules) {
-        const float gap = outside(z, bottom - rounding, bottom + slice + rounding);
-        if (gap < nearest || nearest == farthest) {
-          next = std::min(nearest, next);
-          nearest = std::min(gap, farthest);
-          module = index;
-        } else {
-          next = std::min(next, gap);
-        }
-      }
-      slices_[column * count + i] =
-          packed(static_cast<std::uint32_t>(nearest / step), static_cast<std::uint32_t>(next / step), module);
+      const auto gap = [&](const std::pair<float, std::uint32_t>& module) {
+        return outside(module.first, bottom - rounding, bottom + slice + rounding);
+      };
+      const auto nearest = std::min_element(columns[column].modules.begin(), columns[column].modules.end(),
+                                            [&](const auto& a, const auto& b) { return gap(a) < gap(b); });
+      const auto steps = static_cast<std::uint32_t>(std::min(gap(*nearest), farthest) / step);
+      slices_[column * count + i] = steps | nearest->second << 8;
     }
 }
 

@@ -4,16 +4,15 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
-#include "geometry/detector.h"
+#include "geometry/module_columns.h"
 
 namespace floe {
 
 // What a photon at a point may meet: it can walk `free` metres, in any direction and through any number
-// of scatters, before it can meet any widened module, and `free_of_others` before it can meet one other than
-// `nearest` (an index into Detector::modules()). Both are lower bounds, at least 0.
+// of scatters, before it can meet any widened module, and `free_of_others` before it can meet one that is not
+// in the column of `nearest` (an index into Detector::modules()). Both are lower bounds, at least 0.
 struct ModuleClearance {
   float free, free_of_others;
   std::uint32_t nearest;
@@ -22,9 +21,9 @@ struct ModuleClearance {
 // The clearance of any point, tabulated. A widened module of oversize X is met within X module radii of its
 // centre.
 //
-// Modules hang in vertical columns. A horizontal grid knows for each cell the nearest column, how far it is
-// at least, and how far the second nearest is; a table along the nearest column knows its nearest module and
-// how far above or below that and the next one are.
+// A horizontal grid knows for each cell the nearest column of modules, how far it is at least, and how far
+// the second nearest is; a table along the nearest column knows its nearest module and how far above or below
+// that is.
 class ClearanceMap {
  public:
   // Throws UsageError unless 1 <= oversize <= 100.
@@ -40,6 +39,18 @@ class ClearanceMap {
   class View {
    public:
     ModuleClearance at(float x, float y, float z) const {
+      const Distances found = distances(x, y, z);
+      return {larger(0, std::sqrt(found.square) - reach_), larger(0, std::sqrt(found.others_square) - reach_),
+              found.nearest};
+    }
+
+    // Squared distances to the nearest module's centre and to that of the nearest module in another column:
+    // a photon that walks L metres may meet one if (L + reach())^2 is at least as much.
+    struct Distances {
+      float square, others_square;
+      std::uint32_t nearest;
+    };
+    Distances distances(float x, float y, float z) const {
       const float beyond = outside(z, low_z, high_z);
       const float west = outside(x, low_x, high_x), south = outside(y, low_y, high_y);
       const float column = (x - x0) * per_cell, row = (y - y0) * per_cell;
@@ -52,17 +63,13 @@ class ClearanceMap {
       const auto place = static_cast<std::int32_t>(inside((z - low_z) * per_slice, last_slice));
       const std::uint32_t slice_entry = slices[static_cast<std::int32_t>(cell >> 16) * slice_count + place];
       const float gap = beyond + step * static_cast<float>(static_cast<std::int32_t>(slice_entry & 255));
-      const float next_gap =
-          beyond + step * static_cast<float>(static_cast<std::int32_t>((slice_entry >> 8) & 255));
-      const float others_aside = to_second * to_second + beyond * beyond;
-      const float near = smaller(to_first * to_first + gap * gap, others_aside);
-      const float others = smaller(to_first * to_first + next_gap * next_gap, others_aside);
+      const float others = to_second * to_second + beyond * beyond;
+      const float near = smaller(to_first * to_first + gap * gap, others);
       // Outside the grid no module is nearer than the box that holds them all.
       const float box = west * west + south * south + beyond * beyond;
-      const float near_square = aside_grid > 0 ? box : near, others_square = aside_grid > 0 ? box : others;
-      return {larger(0, std::sqrt(near_square) - reach), larger(0, std::sqrt(others_square) - reach),
-              slice_entry >> 16};
+      return {aside_grid > 0 ? box : near, aside_grid > 0 ? box : others, slice_entry >> 8};
     }
+    float reach() const { return reach_; }
 
    private:
     friend class ClearanceMap;
@@ -73,12 +80,12 @@ class ClearanceMap {
 
     const std::uint32_t* cells;   // by row: distances of the nearest and the second nearest column from
                                   // the cell's nearest point [steps, rounded down], nearest column << 16
-    const std::uint32_t* slices;  // by column: distances up or down to the nearest and the next module from
-                                  // the slice's nearest point [steps, rounded down], nearest module << 16
+    const std::uint32_t* slices;  // by column: distance up or down to the nearest module from the slice's
+                                  // nearest point [steps, rounded down], that module << 8
     std::int32_t columns, slice_count;
     float x0, y0, per_cell, last_column, last_row, per_slice, last_slice;
     float low_x, low_y, low_z, high_x, high_y, high_z;  // extent of the modules' centres
-    float reach;                                        // of a widened module, and what rounding may cost [m]
+    float reach_;                                       // of a widened module, and what rounding may cost [m]
   };
   const View& view() const { return view_; }
 
@@ -87,14 +94,9 @@ class ClearanceMap {
   static constexpr float farthest = 63.75F;  // tabulated [m]
   static constexpr float slice = 1;          // of the tables along columns [m]
 
-  struct Column {  // modules at the same (x, y)
-    float x, y;
-    std::vector<std::pair<float, std::uint32_t>> modules;  // height, index
-  };
-  static std::vector<Column> columns_of(const Detector& detector);
   void lay_out_grid();
-  void enter_column(std::uint32_t index, float x, float y);
-  void enter_slices(const std::vector<Column>& columns);
+  void enter_column(std::uint32_t index, const ModuleColumn& column);
+  void enter_slices(const std::vector<ModuleColumn>& columns);
 
   std::vector<std::uint32_t> cells_, slices_;
   float cell_ = 0;

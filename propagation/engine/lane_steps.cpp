@@ -2,6 +2,10 @@
 // over lanes is meant to become vector code; -fopt-info-vec tells whether it did.
 #include "propagation/engine/lane_steps.h"
 
+#ifdef __AVX512F__
+#include <immintrin.h>
+#endif
+
 #include <cmath>
 
 #include "propagation/engine/anisotropy.h"
@@ -42,6 +46,20 @@ void anisotropic_absorption(const IceView& ice, const Lanes& lanes, float* facto
     factor[i] *= old_absorption_factor(layer[IceView::k1][i], layer[IceView::k2][i],
                                        ice.old_absorption_scaling, n1, n2, lanes.nz[i]);
   }
+}
+
+// The lanes whose flags are not 0.
+std::uint64_t set_of(const std::int32_t* flags) {
+  std::uint64_t set = 0;
+#ifdef __AVX512F__
+  for (int i = 0; i < N; i += 16) {
+    const __m512i some = _mm512_load_si512(flags + i);
+    set |= std::uint64_t{_mm512_test_epi32_mask(some, some)} << i;
+  }
+#else
+  for (int i = 0; i < N; ++i) set |= std::uint64_t{flags[i] != 0} << i;
+#endif
+  return set;
 }
 
 // A direction's z component, kept away from 0 so that distances to layer boundaries stay finite.
@@ -148,15 +166,18 @@ void find_segments(const IceView& ice, Lanes& lanes) {
       going[i] = through_next_layer(rows[lanes.layer[i]].values, 1, lanes, i, factor[i], through[i], last, 1);
 }
 
-void find_reach(const ClearanceMap::View& clearance, Lanes& lanes) {
+LaneSets find_reach(const ClearanceMap::View& clearance, Lanes& lanes) {
   const ClearanceMap::View view = clearance;
+  alignas(64) std::int32_t may_meet[N];
 #pragma omp simd
   for (int i = 0; i < N; ++i) {
-    const ModuleClearance at = view.at(lanes.x[i], lanes.y[i], lanes.z[i]);
-    lanes.may_meet[i] = lanes.length[i] >= at.free ? 1 : 0;
-    lanes.may_meet_others[i] = lanes.length[i] >= at.free_of_others ? 1 : 0;
+    const ClearanceMap::View::Distances at = view.distances(lanes.x[i], lanes.y[i], lanes.z[i]);
+    const float within = lanes.length[i] + view.reach();
+    may_meet[i] = within * within >= at.square ? 1 : 0;
+    lanes.may_meet_others[i] = within * within >= at.others_square ? 1 : 0;
     lanes.nearest_module[i] = at.nearest;
   }
+  return {set_of(may_meet), set_of(lanes.absorbed)};
 }
 
 namespace {
@@ -236,6 +257,7 @@ void scatter(const IceView& ice, Lanes& lanes) {
     const float loss = function.one_minus_cos(draw(lanes, i));
     const TurnFunctions<float> turn = turn_functions(draw(lanes, i));
     deflect(loss, turn.cosine, turn.sine, lanes.nx[i], lanes.ny[i], lanes.nz[i]);
+    ++lanes.scatters[i];
   }
 }
 

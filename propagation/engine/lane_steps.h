@@ -14,8 +14,12 @@ void draw_scattering_depths(Lanes& lanes);
 // through all layers it crosses. Spends absorption_depth.
 void find_segments(const IceView& ice, Lanes& lanes);
 
-// Which lanes' segments are long enough to meet a module.
-void find_reach(const ClearanceMap::View& clearance, Lanes& lanes);
+// Lanes as bits, lane 0 the lowest: whose segments are long enough to meet a module, and whose photons are
+// absorbed at their end.
+struct LaneSets {
+  std::uint64_t may_meet, absorbed;
+};
+LaneSets find_reach(const ClearanceMap::View& clearance, Lanes& lanes);
 
 // To the segment's end, through the birefringent step there, and into a new direction.
 void advance_and_scatter(const IceView& ice, Lanes& lanes);

@@ -26,8 +26,8 @@ struct alignas(64) Lanes {
   Array<std::int32_t> layer;
   Array<std::int32_t> absorbed;
 
-  // Whether a module may be on the segment, and whether more than the nearest one may be.
-  Array<std::int32_t> may_meet, may_meet_others;
+  // Whether the segment may meet a module outside the column of the nearest one.
+  Array<std::int32_t> may_meet_others;
   Array<std::uint32_t> nearest_module;
 
   // Which photon of the batch; whether it left the emitting module yet; no photon: number < 0.

@@ -1,9 +1,11 @@
 // Walks many photons at once: the lanes step together (lane_steps.h), each lane asks for modules on its
 // own and only when one can be in reach, and a lane whose photon has ended gets the next one.
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 #include "geometry/clearance_map.h"
+#include "geometry/column_finder.h"
 #include "geometry/module_scene.h"
 #include "propagation/engine/lane_steps.h"
 #include "propagation/engine/photon_acceptance.h"
@@ -13,6 +15,11 @@ namespace floe {
 
 namespace {
 
+template <typename Action>
+void for_each_lane(std::uint64_t set, Action action) {
+  for (; set != 0; set &= set - 1) action(std::countr_zero(set));
+}
+
 class VectorWalker : public PhotonWalker {
  public:
   VectorWalker(const Model& model, double oversize)
@@ -21,10 +28,9 @@ class VectorWalker : public PhotonWalker {
         ice_(*model.ice),
         oversize_(static_cast<float>(oversize)),
         finder_(make_embree_finder(*model.detector, oversize)),
+        column_finder_(*model.detector, oversize),
         clearance_(*model.detector, oversize),
-        acceptance_(*model.detector, model.acceptance) {
-    for (const Module& module : model.detector->modules()) centres_.push_back(module.position.cast<float>());
-  }
+        acceptance_(*model.detector, model.acceptance) {}
 
   WalkerCounts walk(const Source& source, const PhotonBatch& batch,
                     std::vector<SimulatedHit>& hits) const override {
@@ -35,18 +41,18 @@ class VectorWalker : public PhotonWalker {
       draw_scattering_depths(work.lanes);
       find_heights(work.lanes);
       find_segments(ice_, work.lanes);
-      find_reach(clearance_.view(), work.lanes);
-      for (int lane = 0; lane < Lanes::count; ++lane)
-        if (work.lanes.may_meet[lane] && work.lanes.number[lane] >= 0)
-          work.lanes.absorbed[lane] |= meet_modules(work, lane);
+      const LaneSets sets = find_reach(clearance_.view(), work.lanes);
+      std::uint64_t ended = sets.absorbed;
+      for_each_lane(sets.may_meet, [&](int lane) {
+        if (work.lanes.number[lane] >= 0 && meet_modules(work, lane)) ended |= std::uint64_t{1} << lane;
+      });
       advance_and_scatter(ice_, work.lanes);
-      for (int lane = 0; lane < Lanes::count; ++lane) {
-        if (work.lanes.number[lane] < 0) continue;
-        if (work.lanes.absorbed[lane])
-          alive -= !next_photon(work, lane);
-        else
-          ++work.counts.scatters, ++work.lanes.scatters[lane];
-      }
+      work.counts.scatters += static_cast<std::uint64_t>(alive);
+      for_each_lane(ended, [&](int lane) {
+        if (work.lanes.number[lane] < 0) return;
+        --work.counts.scatters;
+        alive -= !next_photon(work, lane);
+      });
     }
     hand_over(work, hits);
     return work.counts;
@@ -119,9 +125,7 @@ class VectorWalker : public PhotonWalker {
       ++work.counts.queries;
       finder_->find(origin, direction, length, work.crossings);
     } else {
-      ModuleCrossing crossing{lanes.nearest_module[lane], 0, {}};
-      if (cross_module(centres_[crossing.module], oversize_, origin, direction, length, crossing))
-        work.crossings.push_back(crossing);
+      column_finder_.find(lanes.nearest_module[lane], origin, direction, length, work.crossings);
     }
     if (work.crossings.empty()) return false;
     RandomStream random = lanes.stream(lane);
@@ -162,8 +166,8 @@ class VectorWalker : public PhotonWalker {
   const LayerTilt& tilt_;
   IceView ice_;
   float oversize_;
-  std::vector<Vec3f> centres_;
   std::unique_ptr<ModuleFinder> finder_;
+  ColumnFinder column_finder_;
   ClearanceMap clearance_;
   PhotonAcceptance acceptance_;
 };
