@@ -88,7 +88,8 @@ class Bench {
         cascade_({{20, -40, -300}, 0, 70 * degree, 130 * degree, 50000}, model_.acceptance.spectrum),
         lines_(tilted_along_lines(), *model_.detector),
         map_(tilted_on_a_map(), *model_.detector),
-        states_(record_states(model_, flasher_, clearance_)) {
+        states_(record_states(model_, flasher_, clearance_)),
+        wavelengths_(*model_.ice, PhotonAcceptance(*model_.detector, model_.acceptance)) {
     view_without_birefringence_.birefringent = false;
     vector_costs::fill(costs_);
   }
@@ -202,9 +203,9 @@ class Bench {
   }
 
   void add_source(const std::string& name, const Source& source) {
-    add(name, 1, [&source, photon = std::uint64_t{0}]() mutable {
-      RandomStream random(1, 0, photon++);
-      benchmark::DoNotOptimize(source.emit(random));
+    add(name, Newborns::count, [this, &source, first = std::uint64_t{0}]() mutable {
+      bear_photons(source, {1, 0, first, Newborns::count}, wavelengths_, first, newborns_);
+      first += Newborns::count;
     });
   }
   void register_photon_parts() {
@@ -212,8 +213,8 @@ class Bench {
         [photon = std::uint64_t{0}]() mutable { benchmark::DoNotOptimize(RandomStream(1, 0, photon++)); });
     add("random number, one at a time", 1,
         [random = RandomStream(1, 0, 0)]() mutable { benchmark::DoNotOptimize(random.uniform()); });
-    add_source("photon of a flasher, with its stream", flasher_);
-    add_source("photon of a cascade, with its stream", cascade_);
+    add_source("birth of a flasher's photon", flasher_);
+    add_source("birth of a cascade's photon", cascade_);
   }
 
   void register_geometry() {
@@ -243,6 +244,8 @@ class Bench {
   CascadeSource cascade_;
   LayerTilt lines_, map_;
   RecordedStates states_;
+  WavelengthTable wavelengths_;
+  Newborns newborns_{};
   vector_costs::Data costs_{};
   std::vector<ModuleCrossing> crossings_;
 };

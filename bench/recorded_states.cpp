@@ -1,5 +1,7 @@
 #include "bench/recorded_states.h"
 
+#include <bit>
+
 #include "propagation/engine/lane_steps.h"
 
 namespace floe {
@@ -15,7 +17,10 @@ constexpr int most_steps = 400000;           // in search of them
 class LaneWalk {
  public:
   LaneWalk(const Model& model, const Source& source)
-      : source_(source), tilt_(model.ice->tilt()), ice_(*model.ice) {
+      : source_(source),
+        tilt_(model.ice->tilt()),
+        ice_(*model.ice),
+        wavelengths_(*model.ice, PhotonAcceptance(*model.detector, model.acceptance)) {
     for (int lane = 0; lane < Lanes::count; ++lane) give_birth(lane);
   }
 
@@ -41,28 +46,19 @@ class LaneWalk {
 
  private:
   void give_birth(int lane) {
-    RandomStream random(1, 0, next_++);
-    const EmittedPhoton born = source_.emit(random);
-    lanes_.x[lane] = born.position.x();
-    lanes_.y[lane] = born.position.y();
-    lanes_.z[lane] = born.position.z();
-    lanes_.nx[lane] = born.direction.x();
-    lanes_.ny[lane] = born.direction.y();
-    lanes_.nz[lane] = born.direction.z();
-    lanes_.time[lane] = born.time;
-    lanes_.wavelength[lane] = born.wavelength;
-    const IceView::WavelengthFactors factors = ice_.factors(born.wavelength);
-    lanes_.scattering_power[lane] = factors.scattering_power;
-    lanes_.absorption_dust[lane] = factors.absorption_dust;
-    lanes_.absorption_thermal[lane] = factors.absorption_thermal;
-    lanes_.slowness[lane] = factors.slowness;
-    lanes_.absorption_depth[lane] = random.exponential();
-    lanes_.set_stream(lane, random);
+    if (newborns_.walked == 0) {
+      bear_photons(source_, {1, 0, next_, Newborns::count}, wavelengths_, next_, newborns_);
+      next_ += Newborns::count;
+    }
+    lanes_.start(lane, newborns_, std::countr_zero(newborns_.walked), 0);
+    newborns_.walked &= newborns_.walked - 1;
   }
 
   const Source& source_;
   const LayerTilt& tilt_;
   IceView ice_;
+  WavelengthTable wavelengths_;
+  Newborns newborns_{};
   Lanes lanes_{};
   std::uint64_t may_meet_ = 0;
   std::uint64_t next_ = 0;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "data/base/constants.h"
-
 namespace floe {
 
 IceView::IceView(const IceModel& ice)
@@ -37,14 +35,6 @@ IceView::IceView(const IceModel& ice)
     anisotropic_scattering |= layer.k1 != 0 || layer.k2 != 0;
   }
   if (birefringent) tabulate_birefringence(*ice.birefringence());
-  for (int wavelength = shortest; wavelength <= longest; ++wavelength) {
-    // Outside its range the refractive index is continued by the value at the range's end.
-    const double inside = std::clamp<double>(wavelength, 250, 700);
-    factors_.push_back({static_cast<float>(ice.scattering_power_factor(wavelength)),
-                        static_cast<float>(ice.absorption_dust_factor(wavelength)),
-                        static_cast<float>(ice.absorption_thermal_factor(wavelength)),
-                        static_cast<float>(group_index(inside) / speed_of_light)});
-  }
 }
 
 void IceView::tabulate_birefringence(const BirefringenceNumbers& numbers) {
@@ -67,17 +57,6 @@ void IceView::tabulate_birefringence(const BirefringenceNumbers& numbers) {
   fill(drift, drift_change, [&](double cosine) {
     return drifts * diffusion_step(numbers, cosine).mean_x / (cosine * std::sqrt(1 - cosine * cosine));
   });
-}
-
-IceView::WavelengthFactors IceView::factors(float wavelength) const {
-  const float place =
-      std::clamp(wavelength, static_cast<float>(shortest), static_cast<float>(longest)) - shortest;
-  const int index = std::min(static_cast<int>(place), longest - shortest - 1);
-  const float w = place - static_cast<float>(index);
-  const WavelengthFactors &a = factors_[index], &b = factors_[index + 1];
-  const auto mix = [w](float p, float q) { return p + w * (q - p); };
-  return {mix(a.scattering_power, b.scattering_power), mix(a.absorption_dust, b.absorption_dust),
-          mix(a.absorption_thermal, b.absorption_thermal), mix(a.slowness, b.slowness)};
 }
 
 }  // namespace floe

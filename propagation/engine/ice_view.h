@@ -45,18 +45,8 @@ struct IceView {
   bool birefringent, displacement;
   std::vector<TableRow> birefringence;
 
-  // A wavelength's factors in the layers' coefficients, and the inverse of the group velocity [ns/m],
-  // linear over whole nanometres.
-  struct WavelengthFactors {
-    float scattering_power, absorption_dust, absorption_thermal, slowness;
-  };
-  WavelengthFactors factors(float wavelength) const;
-
  private:
   void tabulate_birefringence(const BirefringenceNumbers& numbers);
-
-  static constexpr int shortest = 200, longest = 1000;  // [nm]
-  std::vector<WavelengthFactors> factors_;
 };
 
 }  // namespace floe

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "propagation/engine/random.h"
+#include "propagation/engine/newborns.h"
 
 namespace floe {
 
@@ -30,9 +30,44 @@ struct alignas(64) Lanes {
   Array<std::int32_t> may_meet_others;
   Array<std::uint32_t> nearest_module;
 
-  // Which photon of the batch; whether it left the emitting module yet; no photon: number < 0.
+  // Which photon of the batch (no photon: number < 0); how often it has scattered.
   Array<std::int64_t> number;
   Array<std::int32_t> scatters;
+
+  // Puts a newborn photon into a lane.
+  void start(int lane, const Newborns& newborns, int which, std::int64_t photon_number) {
+    const EmittedPhotons& born = newborns.photons;
+    x[lane] = born.x[which];
+    y[lane] = born.y[which];
+    z[lane] = born.z[which];
+    time[lane] = born.time[which];
+    nx[lane] = born.nx[which];
+    ny[lane] = born.ny[which];
+    nz[lane] = born.nz[which];
+    wavelength[lane] = born.wavelength[which];
+    absorption_depth[lane] = newborns.absorption_depth[which];
+    scattering_power[lane] = newborns.scattering_power[which];
+    absorption_dust[lane] = newborns.absorption_dust[which];
+    absorption_thermal[lane] = newborns.absorption_thermal[which];
+    slowness[lane] = newborns.slowness[which];
+    random0[lane] = newborns.streams.state0[which];
+    random1[lane] = newborns.streams.state1[which];
+    random2[lane] = newborns.streams.state2[which];
+    random3[lane] = newborns.streams.state3[which];
+    number[lane] = photon_number;
+    scatters[lane] = 0;
+  }
+  // Leaves a lane without a photon: numbers that can be computed with.
+  void idle(int lane) {
+    x[lane] = y[lane] = z[lane] = time[lane] = nx[lane] = ny[lane] = 0;
+    nz[lane] = 1;
+    absorption_depth[lane] = 0;
+    wavelength[lane] = 400;
+    scattering_power[lane] = absorption_dust[lane] = absorption_thermal[lane] = slowness[lane] = 1;
+    set_stream(lane, RandomStream(0, 0, static_cast<std::uint64_t>(lane)));
+    number[lane] = -1;
+    scatters[lane] = 0;
+  }
 
   void set_stream(int lane, const RandomStream& stream) {
     const auto& state = stream.state();

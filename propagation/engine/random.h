@@ -10,18 +10,25 @@
 
 namespace floe {
 
+// Four words from Philox4x32-10 (Salmon et al. 2011) for a photon's coordinates.
+struct PhiloxWords {
+  std::uint32_t word0, word1, word2, word3;
+};
+inline PhiloxWords philox(std::uint64_t seed, std::uint64_t source, std::uint64_t photon) {
+  const auto word = [](std::uint64_t value, int shift) { return static_cast<std::uint32_t>(value >> shift); };
+  const auto drawn =
+      r123::Philox4x32()({{word(photon, 0), word(photon, 32), word(source, 0), word(source, 32)}},
+                         {{word(seed, 0), word(seed, 32)}});
+  return {drawn[0], drawn[1], drawn[2], drawn[3]};
+}
+
 // xoshiro128++ (Blackman and Vigna 2021), its state drawn with the counter-based Philox4x32-10
 // (Salmon et al. 2011) from the photon's coordinates.
 class RandomStream {
  public:
   RandomStream(std::uint64_t seed, std::uint64_t source, std::uint64_t photon) {
-    const auto word = [](std::uint64_t value, int shift) {
-      return static_cast<std::uint32_t>(value >> shift);
-    };
-    const r123::Philox4x32 philox;
-    const auto drawn = philox({{word(photon, 0), word(photon, 32), word(source, 0), word(source, 32)}},
-                              {{word(seed, 0), word(seed, 32)}});
-    for (int i = 0; i < 4; ++i) state_[i] = drawn[i];
+    const PhiloxWords drawn = philox(seed, source, photon);
+    state_ = {drawn.word0, drawn.word1, drawn.word2, drawn.word3};
     state_[3] |= 1;  // never all zero
   }
 
@@ -61,6 +68,23 @@ class RandomStream {
 
  private:
   State state_;
+};
+
+// The streams of many photons side by side, for loops that become vector code.
+struct alignas(64) RandomStreams {
+  static constexpr int count = 64;
+  std::uint32_t state0[count], state1[count], state2[count], state3[count];
+
+  std::uint32_t bits(int i) { return RandomStream::next(state0[i], state1[i], state2[i], state3[i]); }
+  float uniform(int i) { return RandomStream::to_uniform(bits(i)); }
+
+  RandomStream operator[](int i) const { return RandomStream({state0[i], state1[i], state2[i], state3[i]}); }
+  void set(int i, const RandomStream& stream) {
+    state0[i] = stream.state()[0];
+    state1[i] = stream.state()[1];
+    state2[i] = stream.state()[2];
+    state3[i] = stream.state()[3];
+  }
 };
 
 }  // namespace floe

@@ -8,6 +8,7 @@
 #include "geometry/column_finder.h"
 #include "geometry/module_scene.h"
 #include "propagation/engine/lane_steps.h"
+#include "propagation/engine/newborns.h"
 #include "propagation/engine/photon_acceptance.h"
 #include "propagation/engine/walker.h"
 
@@ -30,11 +31,12 @@ class VectorWalker : public PhotonWalker {
         finder_(make_embree_finder(*model.detector, oversize)),
         column_finder_(*model.detector, oversize),
         clearance_(*model.detector, oversize),
-        acceptance_(*model.detector, model.acceptance) {}
+        acceptance_(*model.detector, model.acceptance),
+        wavelengths_(*model.ice, acceptance_) {}
 
   WalkerCounts walk(const Source& source, const PhotonBatch& batch,
                     std::vector<SimulatedHit>& hits) const override {
-    Batch work{source, batch, batch.first, {}, {}, {}, {}};
+    Batch work{source, batch, batch.first, {}, {}, {}, {}, {}};
     int alive = 0;
     for (int lane = 0; lane < Lanes::count; ++lane) alive += next_photon(work, lane);
     while (alive > 0) {
@@ -62,7 +64,8 @@ class VectorWalker : public PhotonWalker {
   struct Batch {
     const Source& source;
     const PhotonBatch& batch;
-    std::uint64_t next;
+    std::uint64_t next;  // photon to be born
+    Newborns newborns;   // of them, those still in newborns.walked wait for a lane
     Lanes lanes;
     WalkerCounts counts;
     std::vector<SimulatedHit> hits;
@@ -71,40 +74,21 @@ class VectorWalker : public PhotonWalker {
 
   // Gives the lane the batch's next photon; without one, a lane that steps along and is never looked at.
   bool next_photon(Batch& work, int lane) const {
-    Lanes& lanes = work.lanes;
-    for (; work.next < work.batch.first + work.batch.count; ++work.next) {
-      RandomStream random(work.batch.seed, work.batch.stream, work.next);
-      const EmittedPhoton born = work.source.emit(random);
-      if (random.uniform() >= acceptance_.walked_share(born.wavelength)) continue;
-      start(lanes, lane, born, random.exponential());
-      lanes.set_stream(lane, random);
-      lanes.number[lane] = static_cast<std::int64_t>(work.next - work.batch.first);
-      ++work.next;
-      ++work.counts.walked;
-      return true;
+    Newborns& newborns = work.newborns;
+    while (newborns.walked == 0 && work.next < work.batch.first + work.batch.count) {
+      bear_photons(work.source, work.batch, wavelengths_, work.next, newborns);
+      work.next += Newborns::count;
     }
-    start(lanes, lane, {Vec3f::Zero(), 0, Vec3f::UnitX(), 400}, 1);
-    lanes.set_stream(lane, RandomStream(0, 0, static_cast<std::uint64_t>(lane)));
-    lanes.number[lane] = -1;
-    return false;
-  }
-
-  void start(Lanes& lanes, int lane, const EmittedPhoton& born, float absorption_depth) const {
-    lanes.x[lane] = born.position.x();
-    lanes.y[lane] = born.position.y();
-    lanes.z[lane] = born.position.z();
-    lanes.time[lane] = born.time;
-    lanes.nx[lane] = born.direction.x();
-    lanes.ny[lane] = born.direction.y();
-    lanes.nz[lane] = born.direction.z();
-    lanes.absorption_depth[lane] = absorption_depth;
-    const IceView::WavelengthFactors factors = ice_.factors(born.wavelength);
-    lanes.wavelength[lane] = born.wavelength;
-    lanes.scattering_power[lane] = factors.scattering_power;
-    lanes.absorption_dust[lane] = factors.absorption_dust;
-    lanes.absorption_thermal[lane] = factors.absorption_thermal;
-    lanes.slowness[lane] = factors.slowness;
-    lanes.scatters[lane] = 0;
+    if (newborns.walked == 0) {
+      work.lanes.idle(lane);
+      return false;
+    }
+    const int which = std::countr_zero(newborns.walked);
+    newborns.walked &= newborns.walked - 1;
+    work.lanes.start(lane, newborns, which,
+                     static_cast<std::int64_t>(newborns.first - work.batch.first) + which);
+    ++work.counts.walked;
+    return true;
   }
 
   void find_heights(Lanes& lanes) const {
@@ -170,6 +154,7 @@ class VectorWalker : public PhotonWalker {
   ColumnFinder column_finder_;
   ClearanceMap clearance_;
   PhotonAcceptance acceptance_;
+  WavelengthTable wavelengths_;
 };
 
 }  // namespace

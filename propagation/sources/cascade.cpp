@@ -8,7 +8,6 @@
 
 #include "data/base/constants.h"
 #include "data/base/error.h"
-#include "propagation/engine/directions.h"
 #include "propagation/ice/ice_model.h"
 
 namespace floe {
@@ -105,31 +104,18 @@ CascadeSource::CascadeSource(const Cascade& cascade, const WavelengthSpectrum& s
       vertex_(cascade.position.cast<float>()),
       axis_(travel_direction(cascade.zenith, cascade.azimuth).cast<float>()),
       profile_(longitudinal_profile(cascade.kind, cascade.energy)),
+      wavelengths_(QuantileTable::of_quantile([&](double u) { return spectrum.sample(u); })),
+      cherenkov_angles_(
+          QuantileTable::of_quantile([&](double u) { return 1 - 1 / phase_index(spectrum.sample(u)); })),
       depths_(depths_of(profile_)),
       particle_angles_(particle_angles()),
-      photons_(photons_per_metre * light_yield(cascade.kind, cascade.energy).mean * yield_fluctuation),
-      spectrum_(spectrum) {
+      photons_(photons_per_metre * light_yield(cascade.kind, cascade.energy).mean * yield_fluctuation) {
   if (!(cascade.energy > 0) || !std::isfinite(cascade.energy))
     throw UsageError(fmt::format("a cascade's energy must be positive, found {} GeV", cascade.energy));
 }
 
 double CascadeSource::photons() const {
   return photons_;
-}
-
-EmittedPhoton CascadeSource::emit(RandomStream& random) const {
-  EmittedPhoton photon;
-  photon.wavelength = static_cast<float>(spectrum_.sample(random.uniform()));
-
-  const float depth = depths_(random.uniform());
-  photon.position = vertex_ + depth * axis_;
-  photon.time = static_cast<float>(cascade_.time + depth / speed_of_light);
-
-  const float particle = particle_angles_(random.uniform());
-  const Vec3f track = deflect(axis_, particle, random.uniform());
-  const auto cherenkov = static_cast<float>(1 - 1 / phase_index(photon.wavelength));
-  photon.direction = deflect(track, cherenkov, random.uniform());
-  return photon;
 }
 
 }  // namespace floe

@@ -40,15 +40,16 @@ class CascadeSource : public Source {
   // `yield_fluctuation`: the light of a hadronic cascade in units of its mean (1 for the expectation).
   CascadeSource(const Cascade& cascade, const WavelengthSpectrum& spectrum, double yield_fluctuation = 1);
   double photons() const override;
-  EmittedPhoton emit(RandomStream& random) const override;
+  using Source::emit;
+  void emit(RandomStreams& random, EmittedPhotons& photons) const override;
 
  private:
   Cascade cascade_;
   Vec3f vertex_, axis_;
   LongitudinalProfile profile_;
-  QuantileTable depths_, particle_angles_;
+  // All against uniform numbers; the angles as 1 - cos, the Cherenkov angle against that of its wavelength.
+  QuantileTable wavelengths_, cherenkov_angles_, depths_, particle_angles_;
   double photons_;
-  WavelengthSpectrum spectrum_;
 };
 
 // A draw of a hadronic cascade's light in units of its mean: Gaussian, cut to physical values.

@@ -5,6 +5,7 @@
 
 #include "geometry/acceptance.h"
 #include "geometry/detector.h"
+#include "propagation/sources/quantile_table.h"
 #include "propagation/sources/source.h"
 
 namespace floe {
@@ -33,14 +34,15 @@ struct FlasherSettings {
 class FlasherSource : public Source {
  public:
   FlasherSource(const Detector& detector, ModuleId module, const FlasherSettings& settings,
-                WavelengthSpectrum spectrum);
+                const WavelengthSpectrum& spectrum);
   double photons() const override { return settings_.photons; }
-  EmittedPhoton emit(RandomStream& random) const override;
+  using Source::emit;
+  void emit(RandomStreams& random, EmittedPhotons& photons) const override;
   std::optional<std::size_t> emitting_module() const override { return module_; }
 
  private:
   FlasherSettings settings_;
-  WavelengthSpectrum spectrum_;
+  QuantileTable wavelengths_;
   std::size_t module_;
   Vec3f centre_;
   Vec3f led_;  // the LED's direction, at azimuth 0 when there are LEDs all around
@@ -49,15 +51,16 @@ class FlasherSource : public Source {
 // All photons start at one place and time, into all directions alike, or along `direction`.
 class PointSource : public Source {
  public:
-  PointSource(const Vec3& position, double time, double photons, WavelengthSpectrum spectrum,
+  PointSource(const Vec3& position, double time, double photons, const WavelengthSpectrum& spectrum,
               std::optional<Vec3> direction = {});
   double photons() const override { return photons_; }
-  EmittedPhoton emit(RandomStream& random) const override;
+  using Source::emit;
+  void emit(RandomStreams& random, EmittedPhotons& photons) const override;
 
  private:
   Vec3 position_;
   double time_, photons_;
-  WavelengthSpectrum spectrum_;
+  QuantileTable wavelengths_;
   std::optional<Vec3> direction_;
 };
 

@@ -16,6 +16,13 @@ struct EmittedPhoton {
   float wavelength;  // [nm]
 };
 
+// The same for many photons, structure of arrays.
+struct alignas(64) EmittedPhotons {
+  static constexpr int count = RandomStreams::count;
+  float x[count], y[count], z[count], time[count];
+  float nx[count], ny[count], nz[count], wavelength[count];
+};
+
 class Source {
  public:
   virtual ~Source() = default;
@@ -24,8 +31,12 @@ class Source {
   // module, before the detector's efficiencies: N of one repetition.
   virtual double photons() const = 0;
 
-  // Draws one photon. Safe to call from many threads.
-  virtual EmittedPhoton emit(RandomStream& random) const = 0;
+  // Draws EmittedPhotons::count photons, each from its own stream, in loops that become vector code. Safe to
+  // call from many threads.
+  virtual void emit(RandomStreams& random, EmittedPhotons& photons) const = 0;
+
+  // Draws one photon, the same as it would be among many.
+  EmittedPhoton emit(RandomStream& random) const;
 
   // The module whose own light this is; it does not see it.
   virtual std::optional<std::size_t> emitting_module() const { return std::nullopt; }

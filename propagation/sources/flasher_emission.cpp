@@ -1,0 +1,102 @@
+// Drawing the photons of LEDs and point sources, many at a time: the loops become vector code.
+#include <cmath>
+
+#include "data/base/constants.h"
+#include "propagation/engine/directions.h"
+#include "propagation/sources/flasher.h"
+
+namespace floe {
+
+namespace {
+
+constexpr int N = EmittedPhotons::count;
+
+void draw_wavelengths(const QuantileTable& table, RandomStreams& random, EmittedPhotons& photons) {
+  const auto wavelengths = table.view();
+#pragma omp simd
+  for (int i = 0; i < N; ++i) photons.wavelength[i] = wavelengths(random.uniform(i));
+}
+
+void isotropic_directions(RandomStreams& random, EmittedPhotons& photons) {
+#pragma omp simd
+  for (int i = 0; i < N; ++i) {
+    const float cosine = 2 * random.uniform(i) - 1;
+    const float sine = std::sqrt(1 - cosine * cosine);
+    const TurnFunctions<float> turn = turn_functions(random.uniform(i));
+    photons.nx[i] = sine * turn.cosine;
+    photons.ny[i] = sine * turn.sine;
+    photons.nz[i] = cosine;
+  }
+}
+
+void same_direction(const Vec3f& direction, EmittedPhotons& photons) {
+  const float nx = direction.x(), ny = direction.y(), nz = direction.z();
+#pragma omp simd
+  for (int i = 0; i < N; ++i) {
+    photons.nx[i] = nx;
+    photons.ny[i] = ny;
+    photons.nz[i] = nz;
+  }
+}
+
+// Turns every direction about the vertical by an angle of its own.
+void turn_about_vertical(RandomStreams& random, EmittedPhotons& photons) {
+#pragma omp simd
+  for (int i = 0; i < N; ++i) {
+    const TurnFunctions<float> turn = turn_functions(random.uniform(i));
+    const float nx = photons.nx[i], ny = photons.ny[i];
+    photons.nx[i] = turn.cosine * nx - turn.sine * ny;
+    photons.ny[i] = turn.sine * nx + turn.cosine * ny;
+  }
+}
+
+// von Mises-Fisher about each direction: 1 - cos = -w ln(u + (1 - u) exp(-2/w)), w = width^2 [rad^2].
+void widen_beam(float w, RandomStreams& random, EmittedPhotons& photons) {
+  const float opposite = std::exp(-2 / w);
+#pragma omp simd
+  for (int i = 0; i < N; ++i) {
+    const float u = random.uniform(i);
+    const float loss = larger(0, smaller(2, -w * natural_log(u + (1 - u) * opposite)));
+    const TurnFunctions<float> turn = turn_functions(random.uniform(i));
+    deflect(loss, turn.cosine, turn.sine, photons.nx[i], photons.ny[i], photons.nz[i]);
+  }
+}
+
+// `ahead` of a place, along each photon's direction.
+void start_ahead(const Vec3f& place, float ahead, float time, EmittedPhotons& photons) {
+  const float x = place.x(), y = place.y(), z = place.z();
+#pragma omp simd
+  for (int i = 0; i < N; ++i) {
+    photons.x[i] = x + ahead * photons.nx[i];
+    photons.y[i] = y + ahead * photons.ny[i];
+    photons.z[i] = z + ahead * photons.nz[i];
+    photons.time[i] = time;
+  }
+}
+
+}  // namespace
+
+void FlasherSource::emit(RandomStreams& random, EmittedPhotons& photons) const {
+  draw_wavelengths(wavelengths_, random, photons);
+  if (settings_.isotropic) {
+    isotropic_directions(random, photons);
+  } else {
+    same_direction(led_, photons);
+    if (!settings_.azimuth) turn_about_vertical(random, photons);
+    const auto w = static_cast<float>(settings_.beam_width * settings_.beam_width);
+    if (w > 0) widen_beam(w, random, photons);
+  }
+  const auto left = static_cast<float>(settings_.time + module_radius / speed_of_light);
+  start_ahead(centre_, static_cast<float>(module_radius), left, photons);
+}
+
+void PointSource::emit(RandomStreams& random, EmittedPhotons& photons) const {
+  draw_wavelengths(wavelengths_, random, photons);
+  if (direction_)
+    same_direction(direction_->normalized().cast<float>(), photons);
+  else
+    isotropic_directions(random, photons);
+  start_ahead(position_.cast<float>(), 0, static_cast<float>(time_), photons);
+}
+
+}  // namespace floe
