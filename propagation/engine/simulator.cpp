@@ -30,6 +30,26 @@ std::uint64_t number_to_draw(double expected, const SimulationOptions& options) 
   return std::poisson_distribution<std::uint64_t>(expected)(random);
 }
 
+void check_stretch(double stretch) {
+  if (!(stretch >= 1 && stretch <= 100))
+    throw UsageError(
+        fmt::format("the stretch of absorption must be at least 1 and at most 100, found {}", stretch));
+}
+
+// Weights as small as 1e-38 add nothing to any sum, and lose their digits as floats.
+void drop_weightless(std::vector<SimulatedHit>& hits) {
+  std::erase_if(hits, [](const SimulatedHit& hit) { return hit.weight < std::numeric_limits<float>::min(); });
+}
+
+void count_hits(const std::vector<SimulatedHit>& hits, SimulationSummary& summary) {
+  summary.hits += hits.size();
+  for (const SimulatedHit& hit : hits) {
+    const double weight = hit.weight;
+    summary.weight_sum += weight;
+    summary.squared_weight_sum += weight * weight;
+  }
+}
+
 // The batches of a shard: the parts follow each other, so that their hits do, too.
 struct BatchRange {
   std::int64_t first, end;
@@ -50,6 +70,7 @@ Hit to_hit(const SimulatedHit& hit, const Detector& detector) {
   Hit result;
   result.module = detector.modules()[hit.module].id;
   result.time = hit.time;
+  result.charge = hit.weight;
   result.wavelength = hit.wavelength;
   result.direction = hit.direction;
   result.inward = hit.inward;
@@ -57,6 +78,7 @@ Hit to_hit(const SimulatedHit& hit, const Detector& detector) {
 }
 
 struct Simulator::Engine {
+  EngineKind kind;
   std::unique_ptr<PhotonWalker> walker;
   PhotonAcceptance acceptance;
 };
@@ -65,13 +87,13 @@ Simulator::Simulator(const Model& model, double oversize, EngineKind kind)
     : model_(model), oversize_(oversize) {
   if (!(oversize >= 1 && oversize <= 100))
     throw UsageError(fmt::format("the oversize factor must be between 1 and 100, found {}", oversize));
-  if (model.ice->tables().configuration.hole_ice.radius > 0)
+  if (kind == EngineKind::vector && model.ice->tables().configuration.hole_ice.radius > 0)
     throw UsageError(
         "the hole-ice column of this ice model is not simulated yet; its effect on the angular "
         "acceptance is in as.dat. Switch the column off with --without hole-ice");
   auto walker =
       kind == EngineKind::plain ? make_plain_walker(model, oversize) : make_vector_walker(model, oversize);
-  engine_.reset(new Engine{std::move(walker), PhotonAcceptance(*model.detector, model.acceptance)});
+  engine_.reset(new Engine{kind, std::move(walker), PhotonAcceptance(*model.detector, model.acceptance)});
 }
 
 Simulator::~Simulator() = default;
@@ -82,7 +104,12 @@ double Simulator::photons_to_propagate(const Source& source) const {
 
 SimulationSummary Simulator::run(const Source& source, const SimulationOptions& options, const HitSink& sink,
                                  const Progress& progress) const {
+  check_stretch(options.absorption_stretch);
   const auto start = std::chrono::steady_clock::now();
+  // The vector engine does not stretch absorption; the plain walk does it for both.
+  const bool replaced = engine_->kind == EngineKind::vector && options.absorption_stretch != 1;
+  const auto replacement = replaced ? make_plain_walker(model_, oversize_) : nullptr;
+  const PhotonWalker& walker = replaced ? *replacement : *engine_->walker;
   const std::uint64_t photons = number_to_draw(options.scale * photons_to_propagate(source), options);
   const auto [first_batch, end_batch] = batches_of(photons, options.shard);
   const int threads = options.threads > 0 ? options.threads : omp_get_num_procs();
@@ -93,12 +120,14 @@ SimulationSummary Simulator::run(const Source& source, const SimulationOptions& 
   for (std::int64_t b = first_batch; b < end_batch; ++b) {
     const std::uint64_t first = static_cast<std::uint64_t>(b) * batch_size;
     const PhotonBatch batch{options.seed, options.stream, first,
-                            static_cast<std::uint32_t>(std::min<std::uint64_t>(batch_size, photons - first))};
+                            static_cast<std::uint32_t>(std::min<std::uint64_t>(batch_size, photons - first)),
+                            options.absorption_stretch};
     std::vector<SimulatedHit> hits;
     WalkerCounts counts;
     std::exception_ptr problem;
     try {
-      counts = engine_->walker->walk(source, batch, hits);
+      counts = walker.walk(source, batch, hits);
+      drop_weightless(hits);
     } catch (...) {
       problem = std::current_exception();
     }
@@ -111,7 +140,7 @@ SimulationSummary Simulator::run(const Source& source, const SimulationOptions& 
           summary.propagated += counts.walked;
           summary.scatters += counts.scatters;
           summary.queries += counts.queries;
-          summary.hits += hits.size();
+          count_hits(hits, summary);
           if (!hits.empty()) sink(hits);
           if (progress)
             progress(static_cast<double>(b + 1 - first_batch) / static_cast<double>(end_batch - first_batch),
