@@ -10,6 +10,7 @@
 #include <limits>
 #include <random>
 
+#include "data/base/constants.h"
 #include "data/base/error.h"
 #include "propagation/engine/photon_acceptance.h"
 #include "propagation/engine/walker.h"
@@ -43,11 +44,7 @@ void drop_weightless(std::vector<SimulatedHit>& hits) {
 
 void count_hits(const std::vector<SimulatedHit>& hits, SimulationSummary& summary) {
   summary.hits += hits.size();
-  for (const SimulatedHit& hit : hits) {
-    const double weight = hit.weight;
-    summary.weight_sum += weight;
-    summary.squared_weight_sum += weight * weight;
-  }
+  for (const SimulatedHit& hit : hits) summary.weights.add(hit.weight);
 }
 
 // The batches of a shard: the parts follow each other, so that their hits do, too.
@@ -154,6 +151,18 @@ SimulationSummary Simulator::run(const Source& source, const SimulationOptions& 
   if (failure) std::rethrow_exception(failure);
   summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return summary;
+}
+
+std::vector<std::string> simulation_warnings(const Model& model, double oversize) {
+  std::vector<std::string> warnings;
+  const double column = model.ice->tables().configuration.hole_ice.radius * module_radius;
+  if (oversize > 1 && column > 0)
+    warnings.push_back(fmt::format(
+        "modules widened {:g} times, to a radius of {:.2f} m, do not see what the hole-ice column, "
+        "of a radius of {:.2f} m, does to the light that reaches a module; simulate hole ice with "
+        "--oversize 1",
+        oversize, oversize * module_radius, column));
+  return warnings;
 }
 
 }  // namespace floe

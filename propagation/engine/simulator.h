@@ -5,8 +5,11 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "data/base/progress.h"
+#include "data/weights.h"
 #include "propagation/model.h"
 #include "propagation/sources/source.h"
 
@@ -48,15 +51,10 @@ struct SimulationOptions {
 struct SimulationSummary {
   std::uint64_t propagated = 0;  // photons walked
   std::uint64_t hits = 0;
-  double weight_sum = 0, squared_weight_sum = 0;  // over the hits
-  std::uint64_t scatters = 0;                     // on all paths together
-  std::uint64_t queries = 0;                      // questions put to the geometry
+  WeightSums weights;          // over the hits
+  std::uint64_t scatters = 0;  // on all paths together
+  std::uint64_t queries = 0;   // questions put to the geometry
   double seconds = 0;
-
-  // So many hits of weight 1 would have the same relative error.
-  double effective_hits() const {
-    return squared_weight_sum > 0 ? weight_sum * weight_sum / squared_weight_sum : 0;
-  }
 };
 
 // The plain engine walks one photon at a time in double precision and is there to be read and to test
@@ -86,5 +84,8 @@ class Simulator {
   double oversize_;
   std::unique_ptr<const Engine> engine_;
 };
+
+// What users should know of simulations of this model with modules so wide; a sentence each.
+std::vector<std::string> simulation_warnings(const Model& model, double oversize);
 
 }  // namespace floe
