@@ -183,12 +183,10 @@ class PlainWalker : public PhotonWalker {
     const auto length = static_cast<float>(piece.length);
     std::vector<ModuleCrossing> crossings;
     finder_->find(origin, direction, length, crossings);
-    for (ModuleCrossing crossing : crossings) {
-      if (task.emitter == crossing.module) {
-        const Vec3f centre = model_.detector->modules()[crossing.module].position.cast<float>();
-        if (photon.scattered && cross_module(centre, 1, origin, direction, length, crossing)) return true;
-        continue;
-      }
+    const float back_home = distance_to_emitter(photon, length, task);
+    for (const ModuleCrossing& crossing : crossings) {
+      if (task.emitter == crossing.module) continue;
+      if (crossing.distance > back_home) break;
       const auto wavelength = static_cast<float>(photon.wavelength);
       if (acceptance_.accepts(crossing, direction, wavelength, random)) {
         const auto time = static_cast<float>(photon.time + crossing.distance / speed);
@@ -197,7 +195,20 @@ class PlainWalker : public PhotonWalker {
       }
       if (oversize_ == 1) return true;
     }
-    return false;
+    return back_home <= length;
+  }
+
+  // Along the path, to the emitting module at its nominal size; endless where the path does not lead there.
+  // Asked for apart from the finder: whoever is close by may already be inside the widened shape.
+  float distance_to_emitter(const Photon& photon, float length, const Task& task) const {
+    constexpr float endless = std::numeric_limits<float>::infinity();
+    if (!task.emitter || !photon.scattered) return endless;
+    const Vec3f centre = model_.detector->modules()[*task.emitter].position.cast<float>();
+    ModuleCrossing crossing{};
+    return cross_module(centre, 1, photon.position.cast<float>(), photon.direction.cast<float>(), length,
+                        crossing)
+               ? crossing.distance
+               : endless;
   }
 
   // Photons whose absorption is stretched by k survive the optical depth d with exp(-d/k): they count as
