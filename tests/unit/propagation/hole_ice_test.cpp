@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "data/base/constants.h"
+#include "propagation/engine/simulator.h"
 #include "tests/physics/engine/test_scenes.h"
 #include "tests/unit/geometry/random_places.h"
 #include "tests/unit/propagation/ice/ice_directory.h"
@@ -207,6 +208,19 @@ TEST(HoleIceColumns, FreeIsALowerBoundAndSharpNearby) {
 TEST(HoleIceColumns, RadiusZeroIsNone) {
   EXPECT_FALSE(columns_around(strings, 0).exist());
   EXPECT_TRUE(columns_around(strings, 0.5).exist());
+}
+
+TEST(HoleIceWarning, IsGivenForWidenedModules) {
+  IceTables tables = uniform_tables({});
+  tables.configuration.hole_ice.radius = 2;
+  const Model with = make_model(tables, strings);
+  const auto warnings = simulation_warnings(with, 5);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("hole-ice column"), std::string::npos);
+  EXPECT_NE(warnings[0].find("--oversize 1"), std::string::npos);
+  EXPECT_TRUE(simulation_warnings(with, 1).empty());
+  tables.configuration.hole_ice.radius = 0;
+  EXPECT_TRUE(simulation_warnings(make_model(tables, strings), 5).empty());
 }
 
 // Where str-f2k gives a drill hole's centre, the column stands there, else around its modules' mean.
