@@ -11,6 +11,7 @@
 #include "apps/event_arguments.h"
 #include "apps/fit_options.h"
 #include "apps/model_json.h"
+#include "apps/model_warnings.h"
 #include "apps/option_values.h"
 #include "apps/planned_output.h"
 #include "apps/progress_bar.h"
@@ -180,8 +181,11 @@ void run_compare(const CompareOptions& options) {
     pictures.push_back(std::make_unique<PlannedOutput>(picture_name(options.picture, i, events.size())));
   const Models models{requests, load_model(requests[0]), load_model(requests[1])};
 
-  Json results = {
-      {"models", {to_json(models.a), to_json(models.b)}}, {"seed", fit.seed}, {"events", Json::array()}};
+  Json results = {{"models", {to_json(models.a), to_json(models.b)}},
+                  {"seed", fit.seed},
+                  {"warnings", Json::array({warn_of_model(models.a, fit.oversize),
+                                            warn_of_model(models.b, fit.oversize)})},
+                  {"events", Json::array()}};
   std::string failures;
   for (std::size_t i = 0; i < events.size(); ++i) {
     const ModelComparison comparison = compare_event(models, events[i], options, fit);

@@ -22,11 +22,19 @@ void add_event_arguments(CLI::App& app, std::vector<std::string>& files) {
 
 std::vector<Event> read_events(const std::vector<std::string>& files) {
   std::vector<Event> events;
-  for (const std::string& file : files)
-    for (Event& event : read_event_file(file).events) {
+  for (const std::string& file : files) {
+    EventFile content = read_event_file(file);
+    if (content.provenance && content.provenance->weighted)
+      fmt::print(
+          stderr,
+          "floe: warning: {}: weighted photons, which are no counts of hits: fits to them have wrong errors "
+          "and p-values\n",
+          file);
+    for (Event& event : content.events) {
       events.push_back(std::move(event));
       if (files.size() > 1) events.back().id = file + ":" + events.back().id;
     }
+  }
   return events;
 }
 

@@ -123,6 +123,8 @@ Provenance provenance_of(const std::vector<Part>& parts, bool shards, const std:
                                       {"ice_hash", part.content.provenance->ice_hash},
                                       {"configuration", part.configuration}});
   provenance.configuration = configuration.dump();
+  provenance.weighted = std::any_of(parts.begin(), parts.end(),
+                                    [](const Part& part) { return part.content.provenance->weighted; });
   return provenance;
 }
 

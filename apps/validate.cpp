@@ -24,6 +24,7 @@ struct ValidateOptions {
   std::filesystem::path reference;
   std::optional<std::string> ice_models;
   std::vector<std::string> only;
+  std::string engine = "vector";
   bool quick = false;
   SimulationSettings simulation;
   OutputOptions output;
@@ -81,12 +82,19 @@ Json result_json(const ReferenceSet& set, const ValidationResult& result) {
           {"seconds", result.simulation.seconds}};
 }
 
+EngineKind engine_kind_of(const std::string& name) {
+  if (name == "vector") return EngineKind::vector;
+  if (name == "plain") return EngineKind::plain;
+  throw UsageError(fmt::format("--engine: found \"{}\"; expected vector or plain", name));
+}
+
 ValidationOptions validation_options(const ValidateOptions& options) {
   ValidationOptions result;
   result.reference = options.reference;
   result.ice_models =
       options.ice_models ? std::filesystem::path(*options.ice_models) : options.reference / ".." / "ice";
   result.share = options.quick ? quick_share : 1;
+  result.engine = engine_kind_of(options.engine);
   result.seed = options.simulation.seed;
   result.threads = options.simulation.threads;
   return result;
@@ -107,6 +115,7 @@ std::vector<ReferenceSet> chosen_sets(const ValidateOptions& options) {
 }
 
 void run_validate(const ValidateOptions& options) {
+  const ValidationOptions validation = validation_options(options);
   PlannedOutput json(options.output.json);
   TextTable table({"set", "floe", "reference", "ratio of hits", "chi2/modules", "p", "p times", "p zenith",
                    "p azimuth", "p impact", "verdict"});
@@ -118,17 +127,17 @@ void run_validate(const ValidateOptions& options) {
     const Progress named = [&](double fraction, const std::string&) {
       if (progress) progress(fraction, set.name);
     };
-    const ValidationResult result = validate_set(set, validation_options(options), named);
+    const ValidationResult result = validate_set(set, validation, named);
     table.add(table_row(set, result));
     results.push_back(result_json(set, result));
     failed += !result.passes();
   }
-  json.write(json_text({{"sets", results}, {"passed", failed == 0}}));
+  json.write(json_text({{"engine", options.engine}, {"sets", results}, {"passed", failed == 0}}));
   json.commit();
   if (!options.output.quiet) {
-    fmt::print("{}", table.str());
+    fmt::print("{}\nSimulated with the {} engine.\n", table.str(), options.engine);
     fmt::print(
-        "\nA set passes when the total agrees within 2% (3 standard errors where these are larger), hits per "
+        "A set passes when the total agrees within 2% (3 standard errors where these are larger), hits per "
         "module\nhave p > 0.001, and times and directions of arrival have p > 0.001 after correction for the "
         "modules tried.\n");
   }
@@ -147,6 +156,10 @@ void add_validate(CLI::App& floe) {
                  "Folder with the public ice models; default: ice, beside the reference")
       ->type_name("DIR");
   app.add_option("--only", options->only, "Only these sets")->type_name("SET")->delimiter(',');
+  app.add_option("--engine", options->engine,
+                 "vector: the one that simulations use; plain: the slow reference that it is tested against")
+      ->type_name("vector|plain")
+      ->capture_default_str();
   app.add_flag("--quick", options->quick, "A twentieth of the light: a check of the whole chain in short");
   add_run_options(app, options->simulation);
   add_output_options(app, options->output);
@@ -154,6 +167,7 @@ void add_validate(CLI::App& floe) {
       "Examples:\n"
       "  floe validate --reference ../shared/reference --quick\n"
       "  floe validate --reference ../shared/reference --only cascade-50tev --json validation.json\n"
+      "  floe validate --reference ../shared/reference --quick --engine plain\n"
       "Exit code 1 when a set does not agree.");
   app.callback([options] { run_validate(*options); });
 }

@@ -174,7 +174,8 @@ class Bench {
     find_heights(model_.ice->tilt(), lanes);
     find_segments(view_, lanes);
     find_reach(clearance_.view(), lanes);
-    advance_and_scatter(view_, lanes);
+    advance(view_, lanes);
+    scatter(view_, lanes);
   }
   void find_heights(const LayerTilt& tilt, Lanes& lanes) const {
     float shift[Lanes::count];
@@ -195,9 +196,10 @@ class Bench {
     add_on_lanes("walk through the layers", states_.drawn,
                  [this](Lanes& lanes) { find_segments(view_, lanes); });
     add_on_lanes("advance, birefringence, scattering", states_.found,
-                 [this](Lanes& lanes) { advance_and_scatter(view_, lanes); });
-    add_on_lanes("the same without birefringence", states_.found,
-                 [this](Lanes& lanes) { advance_and_scatter(view_without_birefringence_, lanes); });
+                 [this](Lanes& lanes) { advance(view_, lanes), scatter(view_, lanes); });
+    add_on_lanes("the same without birefringence", states_.found, [this](Lanes& lanes) {
+      advance(view_without_birefringence_, lanes), scatter(view_without_birefringence_, lanes);
+    });
     add_on_lanes("clearance of the modules", states_.found,
                  [this](Lanes& lanes) { find_reach(clearance_.view(), lanes); });
   }

@@ -39,7 +39,8 @@ class LaneWalk {
     may_meet_ = find_reach(clearance.view(), lanes_).may_meet;
   }
   void go() {
-    advance_and_scatter(ice_, lanes_);
+    advance(ice_, lanes_);
+    scatter(ice_, lanes_);
     for (int lane = 0; lane < Lanes::count; ++lane)
       if (lanes_.absorbed[lane]) give_birth(lane);
   }

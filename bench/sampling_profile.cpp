@@ -71,31 +71,26 @@ struct Rule {
   const char* part;
   std::string_view function, library;
 };
-constexpr const char* everything_else = "the walk itself: random streams, refill, hits";
-constexpr const char* lanes_end = "to the next scatter, birefringence, new direction";
+constexpr const char* everything_else = "the walk itself: refill, hits";
 constexpr Rule rules[] = {
-    {"emission of photons", "::emit(", ""},
-    {"emission of photons", "floe::deflect<", ""},
-    {"emission of photons", "floe::WavelengthSpectrum::", ""},
-    {"emission of photons", "_distribution<", ""},
+    {"birth of photons", "::emit(", ""},
+    {"birth of photons", "floe::bear_photons", ""},
+    {"birth of photons", "::widen_beam(", ""},
+    {"birth of photons", "::isotropic_directions(", ""},
     {"depth to the next scatter", "floe::draw_scattering_depths", ""},
     {"layer tilt", "floe::LayerTilt::", ""},
     {"walk through the layers", "floe::find_segments", ""},
-    {"walk through the layers", "::anisotropic_absorption(", ""},
-    {"walk through the layers", "::through_layer(", ""},
     {"clearance of the modules", "floe::find_reach", ""},
-    {"the nearest module alone", "floe::cross_module", ""},
+    {"the nearest column alone", "floe::cross_module", ""},
+    {"the nearest column alone", "floe::ColumnFinder::", ""},
     {"Embree", "", "libembree"},
     {"Embree", "EmbreeFinder", ""},
     {"acceptance by the module", "floe::PhotonAcceptance::", ""},
     {"acceptance by the module", "floe::AngularAcceptance::", ""},
-    {lanes_end, "floe::advance_and_scatter", ""},
-    {lanes_end, "::advance(", ""},
-    {lanes_end, "::birefringent_step(", ""},
-    {lanes_end, "::stretch(", ""},
-    {lanes_end, "::scatter(", ""},
-    {"vector functions (log, exp) of the two above", "", "libmvec.so"},
-    {"scalar functions (log, pow), mostly of emission", "", "libm.so"},
+    {"to the next scatter, birefringence", "floe::advance", ""},
+    {"to the next scatter, birefringence", "::birefringent_step(", ""},
+    {"new direction", "::scatter(", ""},
+    {"new direction", "floe::scatter", ""},
     {everything_else, "", ""},
 };
 

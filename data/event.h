@@ -23,7 +23,7 @@ struct Hit {
 
   ModuleId module;
   double time = 0;             // [ns]
-  float charge = 1;            // [photoelectrons]
+  float charge = 1;            // [photoelectrons]; in a weighted simulation the photon's weight
   float wavelength = unknown;  // [nm]
   // Direction in which the photon travels, and direction from the point where it met the module to
   // the module's centre (their product is positive); unit vectors, or unknown.
@@ -59,6 +59,7 @@ struct Provenance {
   std::string detector_name, detector_hash;
   unsigned long long seed = 0;
   double oversize = 1;
+  bool weighted = false;  // the hits are weighted photons (docs/formats.md)
 };
 
 }  // namespace floe

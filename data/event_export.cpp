@@ -31,10 +31,10 @@ void append_hit(fmt::memory_buffer& text, const Event& event, const Hit& hit) {
                     "Export it as .dat (module, time and charge)",
                     event.id));
   if (hit.charge != 1)
-    throw UsageError(
-        fmt::format("event '{}' has hits of {} photoelectrons, which a .hits file cannot say: each of its "
-                    "lines is one photon. Export it as .dat (module, time and charge)",
-                    event.id, hit.charge));
+    throw UsageError(fmt::format(
+        "event '{}' has hits of {} photoelectrons (or photons of that weight), which a .hits file "
+        "cannot say: each of its lines is one photon. Export it as .dat (module, time and charge)",
+        event.id, hit.charge));
   const Angles p = angles_of(hit.direction), d = angles_of(hit.inward);
   fmt::format_to(std::back_inserter(text), "HIT {} {} {:.3f} {:.3f} {:.6f} {:.6f} {:.6f} {:.6f}\n",
                  hit.module.string, hit.module.dom, hit.time, hit.wavelength, p.theta, p.phi, d.theta, d.phi);

@@ -49,7 +49,7 @@ EventFormat event_format_of(const std::filesystem::path& path);  // throws Usage
 
 // Writes one file of text for all events; more than one event in a format without event names is a
 // UsageError that says what to do, and so are hits that the format cannot express (.hits: unknown
-// direction or wavelength, charge other than 1). Text is exact to 1e-3 ns / 1e-6 rad.
+// direction or wavelength, charge or weight other than 1). Text is exact to 1e-3 ns / 1e-6 rad.
 void export_events(const std::filesystem::path& path, EventFormat format, std::span<const Event> events);
 
 // f2k text: one "TR gen igen NAME x y z zenith azimuth length energy time" a line (degrees); "EM"

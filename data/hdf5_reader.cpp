@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <unordered_set>
@@ -247,6 +248,34 @@ void distribute(const TableReader<Row>& table, EventRanges& ranges, const std::v
   });
 }
 
+// The sums of a weighted simulation's events must be what their hits add up to.
+void check_weights(const TableReader<WeightRow>& table, const std::vector<Event>& events) {
+  std::vector<WeightRow> expected;
+  for (std::size_t e = 0; e < events.size(); ++e) {
+    ModuleWeights sums;
+    add_weights(sums, events[e].hits);
+    for (const auto& module : sums) expected.push_back(row_of(e, module));
+  }
+  if (table.size() != expected.size())
+    throw InputError(table.where(), fmt::format("{} rows of 'weights'", table.size()),
+                     fmt::format("{}, one for each module with hits in an event", expected.size()));
+  const auto same = [](double a, double b) { return std::abs(a - b) <= 1e-6 * b; };
+  table.for_each([&](const WeightRow& row, hsize_t index) {
+    const WeightRow& sums = expected[index];
+    const bool fits = row.event == sums.event && row.string == sums.string && row.dom == sums.dom &&
+                      row.hit_count == sums.hit_count && same(row.weight_sum, sums.weight_sum) &&
+                      same(row.squared_weight_sum, sums.squared_weight_sum);
+    if (!fits)
+      throw InputError(
+          table.where(),
+          fmt::format("sums {} and {} of {} hits of module {},{} in row {} of 'weights'", row.weight_sum,
+                      row.squared_weight_sum, row.hit_count, row.string, row.dom, index),
+          fmt::format("{} and {} of {} hits of module {},{} in event {}", sums.weight_sum,
+                      sums.squared_weight_sum, sums.hit_count, sums.string, sums.dom, sums.event),
+          "The sums do not belong to the hits: make the file again");
+  });
+}
+
 EventFile read_open_file(hid_t file, const Location& where) {
   const AttributeReader attributes(file, where);
   expect_format(attributes, where);
@@ -261,6 +290,9 @@ EventFile read_open_file(hid_t file, const Location& where) {
   distribute(hits, ranges, ranges.hit_end, hit_of,
              [](Event& event, const Hit& hit) { event.hits.push_back(hit); });
   result.events = std::move(ranges.events);
+  result.provenance->weighted =
+      checked(H5Lexists(file, Table<WeightRow>::name, H5P_DEFAULT), "look for a table") > 0;
+  if (result.provenance->weighted) check_weights(TableReader<WeightRow>(file, where), result.events);
   return result;
 }
 

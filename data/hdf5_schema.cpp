@@ -36,6 +36,11 @@ constexpr std::array hit_columns = {
     FLOE_COLUMN(HitRow, inward_x, float32),      FLOE_COLUMN(HitRow, inward_y, float32),
     FLOE_COLUMN(HitRow, inward_z, float32),
 };
+constexpr std::array weight_columns = {
+    FLOE_COLUMN(WeightRow, event, uint64),       FLOE_COLUMN(WeightRow, string, int32),
+    FLOE_COLUMN(WeightRow, dom, int32),          FLOE_COLUMN(WeightRow, hit_count, uint64),
+    FLOE_COLUMN(WeightRow, weight_sum, float64), FLOE_COLUMN(WeightRow, squared_weight_sum, float64),
+};
 #undef FLOE_COLUMN
 
 Hdf5Handle padded_text_type(std::size_t size) {
@@ -87,6 +92,9 @@ std::span<const Column> Table<EventRow>::columns() {
 std::span<const Column> Table<ParticleRow>::columns() {
   return particle_columns;
 }
+std::span<const Column> Table<WeightRow>::columns() {
+  return weight_columns;
+}
 std::span<const Column> Table<HitRow>::columns() {
   return hit_columns;
 }
@@ -114,6 +122,11 @@ Hdf5Handle utf8_type(std::size_t size) {
   Hdf5Handle type = padded_text_type(size);
   checked(H5Tset_cset(type, H5T_CSET_UTF8), "set the encoding of a text type");
   return type;
+}
+
+WeightRow row_of(std::uint64_t event, const ModuleWeights::value_type& module) {
+  const auto& [id, sums] = module;
+  return {event, id.string, id.dom, sums.hits, sums.sum, sums.squares};
 }
 
 HitRow row_of(const Hit& hit) {

@@ -8,6 +8,7 @@
 #include "data/event.h"
 #include "data/event_rules.h"
 #include "data/hdf5_handle.h"
+#include "data/weights.h"
 
 namespace floe::hdf5 {
 
@@ -39,6 +40,14 @@ struct Column {
   std::size_t offset, size;  // in the row [bytes]
 };
 
+// A module's hits in an event of a weighted simulation.
+struct WeightRow {
+  std::uint64_t event;  // its row of the table of events
+  std::int32_t string, dom;
+  std::uint64_t hit_count;
+  double weight_sum, squared_weight_sum;
+};
+
 // A table is a one-dimensional data set of compounds.
 template <typename Row>
 struct Table;  // has: name, rows_per_chunk, columns()
@@ -55,6 +64,12 @@ struct Table<ParticleRow> {
   static std::span<const Column> columns();
 };
 template <>
+struct Table<WeightRow> {
+  static constexpr const char* name = "weights";
+  static constexpr hsize_t rows_per_chunk = 4096;
+  static std::span<const Column> columns();
+};
+template <>
 struct Table<HitRow> {
   static constexpr const char* name = "hits";
   static constexpr hsize_t rows_per_chunk = 16384;
@@ -68,6 +83,7 @@ Hdf5Handle row_type_in_file(std::span<const Column> columns);
 // The type of a text attribute: `size` > 0 bytes of UTF-8.
 Hdf5Handle utf8_type(std::size_t size);
 
+WeightRow row_of(std::uint64_t event, const ModuleWeights::value_type& module);
 HitRow row_of(const Hit& hit);
 Hit hit_of(const HitRow& row);
 ParticleRow row_of(const Particle& particle);

@@ -115,7 +115,7 @@ struct EventFileWriter::Impl {
   explicit Impl(std::filesystem::path name) : path(std::move(name)), target(path) {}
   ~Impl() {
     const Hdf5Silence silence;  // what an unfinished file complains about is no news
-    hits.reset(), particles.reset(), events.reset();
+    hits.reset(), particles.reset(), events.reset(), weights.reset();
     file = {};
   }
 
@@ -135,11 +135,15 @@ struct EventFileWriter::Impl {
     file = create_file(target.temporary());
     write_provenance(file, provenance);
     events.emplace(file), particles.emplace(file), hits.emplace(file);
+    if (provenance.weighted) weights.emplace(file);
   }
 
   void finish_event() {
     if (!current) return;
     current->hit_count = hits->size() - current->first_hit;
+    if (weights)
+      for (const auto& module : module_weights) weights->append(row_of(events->size(), module));
+    module_weights.clear();
     events->append(*current);
     current.reset();
   }
@@ -150,7 +154,9 @@ struct EventFileWriter::Impl {
   std::optional<TableWriter<EventRow>> events;
   std::optional<TableWriter<ParticleRow>> particles;
   std::optional<TableWriter<HitRow>> hits;
-  std::optional<EventRow> current;  // the event begun last
+  std::optional<TableWriter<WeightRow>> weights;  // only in weighted simulations
+  ModuleWeights module_weights;                   // of the event begun last
+  std::optional<EventRow> current;                // the event begun last
   std::string current_id;
   std::unordered_set<std::string> ids;
 };
@@ -184,6 +190,7 @@ void EventFileWriter::append(std::span<const Hit> hits) {
   for (const Hit& hit : hits) expect_valid(problem_of(hit), impl_->current_id);
   impl_->guarded([&] {
     for (const Hit& hit : hits) impl_->hits->append(row_of(hit));
+    if (impl_->weights) add_weights(impl_->module_weights, hits);
   });
 }
 
@@ -192,6 +199,7 @@ void EventFileWriter::close() {
   impl_->guarded([&] {
     impl_->finish_event();
     impl_->hits->close(), impl_->particles->close(), impl_->events->close();
+    if (impl_->weights) impl_->weights->close();
     impl_->file.close("close the file");
   });
   impl_->target.commit();

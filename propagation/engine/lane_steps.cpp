@@ -27,8 +27,18 @@ inline float draw(Lanes& lanes, int i) {
 
 using Columns = float[8][N];
 
-// Absorption's dependence on the direction, per lane.
-void anisotropic_absorption(const IceView& ice, const Lanes& lanes, float* factor) {
+// Absorption's dependence on the direction; `layer` is needed where old_absorption_scaling is not 0.
+inline float absorption_factor(const IceView& ice, const float* layer, float nx, float ny, float nz) {
+  const float n1 = ice.flow_x * nx + ice.flow_y * ny, n2 = -ice.flow_y * nx + ice.flow_x * ny;
+  const float factor =
+      absorption_anisotropy_factor(ice.absorption_K1, ice.absorption_K2, ice.absorption_Kz, n1, n2, nz);
+  if (ice.old_absorption_scaling == 0) return factor;
+  return factor * old_absorption_factor(layer[IceView::k1], layer[IceView::k2], ice.old_absorption_scaling,
+                                        n1, n2, nz);
+}
+
+// The same for all lanes.
+void absorption_factors(const IceView& ice, const Lanes& lanes, const Columns& layer, float* factor) {
 #pragma omp simd
   for (int i = 0; i < N; ++i) {
     const float n1 = ice.flow_x * lanes.nx[i] + ice.flow_y * lanes.ny[i];
@@ -37,8 +47,6 @@ void anisotropic_absorption(const IceView& ice, const Lanes& lanes, float* facto
                                              lanes.nz[i]);
   }
   if (ice.old_absorption_scaling == 0) return;
-  alignas(64) Columns layer;
-  fetch_rows(ice.layers.data(), lanes.layer, layer);
 #pragma omp simd
   for (int i = 0; i < N; ++i) {
     const float n1 = ice.flow_x * lanes.nx[i] + ice.flow_y * lanes.ny[i];
@@ -67,18 +75,34 @@ inline float slope_of(float nz) {
   return std::copysign(larger(std::fabs(nz), 1e-9f), nz);
 }
 
+// 1 or 0; of the slope, so that it agrees with the distances that follow from it also for nz = 0.
+inline int goes_up(float nz) {
+  return slope_of(nz) > 0 ? 1 : 0;
+}
+
+// Of a layer at a lane's wavelength and direction [1/m]. Column k of the layer's row is at row[k * stride].
+struct Coefficients {
+  float scattering, absorption;
+};
+inline Coefficients coefficients(const float* row, std::ptrdiff_t stride, const Lanes& lanes, int i,
+                                 float factor) {
+  return {row[IceView::scattering_constant * stride] +
+              row[IceView::scattering_power * stride] * lanes.scattering_power[i],
+          factor * (row[IceView::absorption_dust * stride] * lanes.absorption_dust[i] +
+                    row[IceView::absorption_thermal * stride] * lanes.absorption_thermal[i])};
+}
+
 // The part of a lane's segment in one layer: as far as the scatter, the absorption or the layer's boundary,
 // which is `reach` metres away.
 struct Piece {
   float length, scattering_depth, absorption_depth;
   std::int32_t absorbed, crosses;  // or goes on into the next layer
 };
-inline Piece piece_of(float scattering, float absorption, float scattering_depth, float absorption_depth,
-                      float reach) {
-  const float to_scatter = larger(0, scattering_depth) / scattering;
-  const float to_absorb = larger(0, absorption_depth) / absorption;
+inline Piece piece_of(Coefficients ice, float scattering_depth, float absorption_depth, float reach) {
+  const float to_scatter = larger(0, scattering_depth) / ice.scattering;
+  const float to_absorb = larger(0, absorption_depth) / ice.absorption;
   const float length = smaller(smaller(to_scatter, to_absorb), reach);
-  return {length, length * scattering, length * absorption, to_absorb <= to_scatter ? 1 : 0,
+  return {length, length * ice.scattering, length * ice.absorption, to_absorb <= to_scatter ? 1 : 0,
           reach <= length ? 1 : 0};
 }
 
@@ -91,18 +115,14 @@ inline float limited_reach(float reach, int next, int last) {
 // Takes one lane's segment, of which `piece` was the part before, through the layer it goes on into.
 inline std::int32_t through_next_layer(const float* layer_row, std::ptrdiff_t stride, Lanes& lanes, int i,
                                        float factor, float through, int last, std::int32_t going) {
-  const auto value = [&](IceView::LayerColumn column) { return layer_row[column * stride]; };
-  const float scattering =
-      value(IceView::scattering_constant) + value(IceView::scattering_power) * lanes.scattering_power[i];
-  const float absorption = factor * (value(IceView::absorption_dust) * lanes.absorption_dust[i] +
-                                     value(IceView::absorption_thermal) * lanes.absorption_thermal[i]);
-  const int layer = lanes.layer[i], next = layer + (lanes.nz[i] > 0 ? 1 : -1);
-  const Piece piece = piece_of(scattering, absorption, lanes.scattering_depth[i], lanes.absorption_depth[i],
-                               limited_reach(through, next, last));
+  const Coefficients ice = coefficients(layer_row, stride, lanes, i, factor);
+  const int layer = lanes.layer[i], next = layer + 2 * goes_up(lanes.nz[i]) - 1;
+  const Piece piece =
+      piece_of(ice, lanes.scattering_depth[i], lanes.absorption_depth[i], limited_reach(through, next, last));
   const float share = going != 0 ? 1 : 0;
   lanes.length[i] += share * piece.length;
-  lanes.diffusion[i] += share * piece.length * value(IceView::diffusion);
-  lanes.deflection[i] += share * piece.length * value(IceView::deflection);
+  lanes.diffusion[i] += share * piece.length * layer_row[IceView::diffusion * stride];
+  lanes.deflection[i] += share * piece.length * layer_row[IceView::deflection * stride];
   lanes.scattering_depth[i] -= share * piece.scattering_depth;
   lanes.absorption_depth[i] -= share * piece.absorption_depth;
   lanes.absorbed[i] = going != 0 ? piece.absorbed : lanes.absorbed[i];
@@ -128,24 +148,22 @@ void find_segments(const IceView& ice, Lanes& lanes) {
   alignas(64) Columns layer;
   fetch_rows(rows, lanes.layer, layer);
   alignas(64) float factor[N], through[N];  // through: a whole layer [m]
-  anisotropic_absorption(ice, lanes, factor);
+  absorption_factors(ice, lanes, layer, factor);
 
   // The first layer, from wherever in it the segment starts.
   alignas(64) std::int32_t going[N];
 #pragma omp simd
   for (int i = 0; i < N; ++i) {
     const float per_slope = step / slope_of(lanes.nz[i]);
-    const int up = lanes.nz[i] > 0 ? 1 : 0, next = lanes.layer[i] + 2 * up - 1;
+    const int up = goes_up(lanes.nz[i]), next = lanes.layer[i] + 2 * up - 1;
     const float boundary = static_cast<float>(lanes.layer[i] + up);
     const float reach = larger(0, (boundary - lanes.height[i]) * per_slope);
     through[i] = std::fabs(per_slope);
-    const float scattering = layer[IceView::scattering_constant][i] +
-                             layer[IceView::scattering_power][i] * lanes.scattering_power[i];
-    const float absorption =
-        factor[i] * (layer[IceView::absorption_dust][i] * lanes.absorption_dust[i] +
-                     layer[IceView::absorption_thermal][i] * lanes.absorption_thermal[i]);
-    const Piece piece = piece_of(scattering, absorption, lanes.scattering_depth[i], lanes.absorption_depth[i],
-                                 limited_reach(reach, next, last));
+    const Piece piece =
+        piece_of(coefficients(&layer[0][i], N, lanes, i, factor[i]), lanes.scattering_depth[i],
+                 lanes.absorption_depth[i], limited_reach(reach, next, last));
+    lanes.scattering_depth_before[i] = lanes.scattering_depth[i];
+    lanes.absorption_depth_before[i] = lanes.absorption_depth[i];
     lanes.length[i] = piece.length;
     lanes.diffusion[i] = piece.length * layer[IceView::diffusion][i];
     lanes.deflection[i] = piece.length * layer[IceView::deflection][i];
@@ -182,7 +200,7 @@ LaneSets find_reach(const ClearanceMap::View& clearance, Lanes& lanes) {
 
 namespace {
 
-void advance(Lanes& lanes) {
+void straight_on(Lanes& lanes) {
 #pragma omp simd
   for (int i = 0; i < N; ++i) {
     lanes.x[i] += lanes.length[i] * lanes.nx[i];
@@ -250,7 +268,7 @@ void stretch(const IceView& ice, Lanes& lanes, float sign) {
   }
 }
 
-void scatter(const IceView& ice, Lanes& lanes) {
+void new_direction(const IceView& ice, Lanes& lanes) {
   const ScatteringFunction<float> function = ice.scattering;
 #pragma omp simd
   for (int i = 0; i < N; ++i) {
@@ -263,12 +281,42 @@ void scatter(const IceView& ice, Lanes& lanes) {
 
 }  // namespace
 
-void advance_and_scatter(const IceView& ice, Lanes& lanes) {
-  advance(lanes);
+void advance(const IceView& ice, Lanes& lanes) {
+  straight_on(lanes);
   if (ice.birefringent) birefringent_step(ice, lanes);
+}
+
+void scatter(const IceView& ice, Lanes& lanes) {
   if (ice.anisotropic_scattering) stretch(ice, lanes, 1);
-  scatter(ice, lanes);
+  new_direction(ice, lanes);
   if (ice.anisotropic_scattering) stretch(ice, lanes, -1);
+}
+
+LanePiece piece_of_segment(const IceView& ice, const Lanes& lanes, int lane, float limit) {
+  LanePiece result{0, lanes.scattering_depth_before[lane], lanes.absorption_depth_before[lane], 0, 0, 0};
+  const float top = static_cast<float>(ice.last_layer);
+  result.layer = static_cast<std::int32_t>(smaller(larger(lanes.height[lane], 0), top));
+  const float per_slope = ice.step / slope_of(lanes.nz[lane]);
+  const int up = goes_up(lanes.nz[lane]);
+  const float factor =
+      absorption_factor(ice, ice.layers[result.layer].values, lanes.nx[lane], lanes.ny[lane], lanes.nz[lane]);
+  float reach = larger(0, (static_cast<float>(result.layer + up) - lanes.height[lane]) * per_slope);
+  for (;;) {
+    const float* layer = ice.layers[result.layer].values;
+    const Coefficients here = coefficients(layer, 1, lanes, lane, factor);
+    const int next = result.layer + 2 * up - 1;
+    const float to_limit = limit - result.length, to_boundary = limited_reach(reach, next, ice.last_layer);
+    const Piece piece =
+        piece_of(here, result.scattering_depth, result.absorption_depth, smaller(to_boundary, to_limit));
+    result.length += piece.length;
+    result.diffusion += piece.length * layer[IceView::diffusion];
+    result.deflection += piece.length * layer[IceView::deflection];
+    result.scattering_depth -= piece.scattering_depth;
+    result.absorption_depth -= piece.absorption_depth;
+    if (piece.crosses == 0 || to_limit <= to_boundary) return result;
+    result.layer = next;
+    reach = std::fabs(per_slope);
+  }
 }
 
 }  // namespace floe

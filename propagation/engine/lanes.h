@@ -13,16 +13,18 @@ struct alignas(64) Lanes {
   template <typename T>
   using Array = T[count];
 
-  // The photon: place [m], time [ns], direction; inverse speed [ns/m]; optical depth left to absorption.
-  Array<float> x, y, z, time, nx, ny, nz, slowness, absorption_depth;
+  // The photon: place [m], time [ns], direction; inverse speed [ns/m]; optical depth left to absorption, and
+  // what it was at birth.
+  Array<float> x, y, z, time, nx, ny, nz, slowness, absorption_depth, absorption_budget;
   // Its wavelength [nm] and the wavelength's factors in the layers' coefficients (IceLayer).
   Array<float> wavelength, scattering_power, absorption_dust, absorption_thermal;
   // Its random stream.
   Array<std::uint32_t> random0, random1, random2, random3;
 
   // The segment under way: optical depth to its scatter, height above the lowest layer's floor at its
-  // start [layers], length [m], birefringence strengths along it [m], last layer.
+  // start [layers], length [m], birefringence strengths along it [m], last layer; the depths before it.
   Array<float> scattering_depth, height, length, diffusion, deflection;
+  Array<float> scattering_depth_before, absorption_depth_before;
   Array<std::int32_t> layer;
   Array<std::int32_t> absorbed;
 
@@ -46,6 +48,7 @@ struct alignas(64) Lanes {
     nz[lane] = born.nz[which];
     wavelength[lane] = born.wavelength[which];
     absorption_depth[lane] = newborns.absorption_depth[which];
+    absorption_budget[lane] = newborns.absorption_depth[which];
     scattering_power[lane] = newborns.scattering_power[which];
     absorption_dust[lane] = newborns.absorption_dust[which];
     absorption_thermal[lane] = newborns.absorption_thermal[which];
@@ -61,7 +64,7 @@ struct alignas(64) Lanes {
   void idle(int lane) {
     x[lane] = y[lane] = z[lane] = time[lane] = nx[lane] = ny[lane] = 0;
     nz[lane] = 1;
-    absorption_depth[lane] = 0;
+    absorption_depth[lane] = absorption_budget[lane] = 0;
     wavelength[lane] = 400;
     scattering_power[lane] = absorption_dust[lane] = absorption_thermal[lane] = slowness[lane] = 1;
     set_stream(lane, RandomStream(0, 0, static_cast<std::uint64_t>(lane)));

@@ -58,12 +58,13 @@ void bear_photons(const Source& source, const PhotonBatch& batch, const Waveleng
   newborns.first = first;
   start_streams(batch, first, newborns.streams);
   source.emit(newborns.streams, newborns.photons);
+  const auto stretch = static_cast<float>(batch.absorption_stretch);
   alignas(64) float chance[N], drawn[N];
   look_up(wavelengths, newborns, chance);
 #pragma omp simd
   for (int i = 0; i < N; ++i) {
     drawn[i] = newborns.streams.uniform(i);
-    newborns.absorption_depth[i] = -natural_log(newborns.streams.uniform(i));
+    newborns.absorption_depth[i] = -stretch * natural_log(newborns.streams.uniform(i));
   }
   const auto left = static_cast<int>(std::min<std::uint64_t>(N, batch.first + batch.count - first));
   newborns.walked = 0;

@@ -11,6 +11,7 @@
 #include "propagation/engine/anisotropy.h"
 #include "propagation/engine/birefringence.h"
 #include "propagation/engine/directions.h"
+#include "propagation/engine/hole_ice.h"
 #include "propagation/engine/photon_acceptance.h"
 #include "propagation/engine/scattering.h"
 #include "propagation/engine/walker.h"
@@ -19,19 +20,35 @@ namespace floe {
 
 namespace {
 
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
 struct Photon {
   std::uint64_t id;
   Vec3 position, direction;
   double time, wavelength;
-  double absorption_depth;  // optical depth left until it is absorbed
+  double absorption_budget;                   // optical depth that it may spend in all
+  double absorption_depth, scattering_depth;  // left until it is absorbed, until it scatters
+  bool scattered = false;
 };
 
-// A straight piece of path: to the next scatter, or to absorption when that comes first.
-struct Segment {
+// A straight piece of path in one medium, the ice or a hole-ice column. It ends where an optical depth is
+// spent or, earlier, at a limit: where it enters or leaves a column.
+struct Piece {
+  enum class End { scatter, absorption, limit };
   double length = 0;
-  bool absorbed = false;
-  int layer = 0;                         // in which it ends
-  double diffusion = 0, deflection = 0;  // birefringence strengths integrated along it [m]
+  End end = End::limit;
+  bool in_column = false;
+  double absorption_depth, scattering_depth;  // what is left of them at the end
+  int layer = 0;                              // in which it ends
+  double diffusion = 0, deflection = 0;       // birefringence strengths integrated along it [m]
+};
+
+// What one call of walk() is about.
+struct Task {
+  const PhotonBatch& batch;
+  std::optional<std::size_t> emitter;
+  std::vector<SimulatedHit>& hits;
+  WalkerCounts counts = {};
 };
 
 class PlainWalker : public PhotonWalker {
@@ -42,76 +59,109 @@ class PlainWalker : public PhotonWalker {
         oversize_(oversize),
         finder_(make_embree_finder(*model.detector, oversize)),
         clearance_(*model.detector, oversize),
+        columns_(model),
         acceptance_(*model.detector, model.acceptance),
+        ice_scattering_{ice_.simplified_liu_fraction(), ice_.mean_cosine()},
+        column_scattering_{columns_.simplified_liu_fraction(), columns_.mean_cosine()},
         flow_(std::cos(ice_.flow_azimuth()), std::sin(ice_.flow_azimuth())) {}
 
   WalkerCounts walk(const Source& source, const PhotonBatch& batch,
                     std::vector<SimulatedHit>& hits) const override {
-    WalkerCounts counts;
+    Task task{batch, source.emitting_module(), hits};
     for (std::uint64_t id = batch.first; id < batch.first + batch.count; ++id) {
       RandomStream random(batch.seed, batch.stream, id);
       const EmittedPhoton born = source.emit(random);
       if (random.uniform() >= acceptance_.walked_share(born.wavelength)) continue;
-      ++counts.walked;
-      walk_one(born, id, source.emitting_module(), random, hits, counts);
+      ++task.counts.walked;
+      walk_one(born, id, random, task);
     }
-    return counts;
+    return task.counts;
   }
 
  private:
-  void walk_one(const EmittedPhoton& born, std::uint64_t id, std::optional<std::size_t> emitter,
-                RandomStream& random, std::vector<SimulatedHit>& hits, WalkerCounts& counts) const {
-    Photon photon{id, born.position.cast<double>(), born.direction.cast<double>(), born.time, born.wavelength,
-                  0};
+  void walk_one(const EmittedPhoton& born, std::uint64_t id, RandomStream& random, Task& task) const {
+    Photon photon{
+        id, born.position.cast<double>(), born.direction.cast<double>(), born.time, born.wavelength, 0, 0, 0};
     const double speed = speed_of_light / group_index(photon.wavelength);
-    photon.absorption_depth = random.exponential();
-    for (bool first = true;; first = false) {
-      const double scattering_depth = random.exponential();
-      const Segment segment = straight_segment(photon, scattering_depth);
-      const bool stopped = meet_modules(photon, segment.length, speed, emitter, first, random, hits, counts);
-      if (stopped || segment.absorbed) return;
-      photon.position += segment.length * photon.direction;
-      photon.time += segment.length / speed;
-      birefringent_step(photon, segment, random);
-      scatter(photon, segment.layer, random);
-      ++counts.scatters;
+    photon.absorption_budget = task.batch.absorption_stretch * random.exponential();
+    photon.absorption_depth = photon.absorption_budget;
+    photon.scattering_depth = random.exponential();
+    for (;;) {
+      const Piece piece = next_piece(photon);
+      const bool stopped = meet_modules(photon, piece, speed, random, task);
+      if (stopped || piece.end == Piece::End::absorption) return;
+      photon.position += piece.length * photon.direction;
+      photon.time += piece.length / speed;
+      photon.absorption_depth = piece.absorption_depth;
+      photon.scattering_depth = piece.scattering_depth;
+      if (!piece.in_column) birefringent_step(photon, piece, random);
+      if (piece.end == Piece::End::limit) continue;
+      scatter(photon, piece, random);
+      photon.scattering_depth = random.exponential();
+      ++task.counts.scatters;
     }
   }
 
-  // Spends the optical depths layer by layer; the tilt's shift is taken at the segment's start.
-  Segment straight_segment(Photon& photon, double scattering_depth) const {
+  // As far as the scatter, the absorption or the surface of a hole-ice column.
+  Piece next_piece(const Photon& photon) const {
+    const Piece whole = piece_in_ice(photon, unlimited);
+    if (!columns_.exist()) return whole;
+    const Vec3f at = photon.position.cast<float>();
+    if (whole.length < columns_.free(at.x(), at.y())) return whole;
+    const auto column = columns_.first(photon.position, photon.direction, whole.length);
+    if (!column) return whole;
+    return column->entry > 0 ? piece_in_ice(photon, column->entry) : piece_in_column(photon, column->exit);
+  }
+
+  Piece piece_in_column(const Photon& photon, double limit) const {
+    Piece piece;
+    piece.in_column = true;
+    const double to_scatter = photon.scattering_depth / columns_.geometric_scattering();
+    const double to_absorb = photon.absorption_depth / columns_.absorption();
+    piece.length = std::min({to_scatter, to_absorb, limit});
+    piece.absorption_depth = photon.absorption_depth - piece.length * columns_.absorption();
+    piece.scattering_depth = photon.scattering_depth - piece.length * columns_.geometric_scattering();
+    if (piece.length < limit)
+      piece.end = to_absorb <= to_scatter ? Piece::End::absorption : Piece::End::scatter;
+    return piece;
+  }
+
+  // Spends the optical depths layer by layer; the tilt's shift is taken at the piece's start.
+  Piece piece_in_ice(const Photon& photon, double limit) const {
     const double step = ice_.layer_step(), slope = photon.direction.z();
     const int last = static_cast<int>(ice_.layers().size()) - 1;
     double z = photon.position.z() - ice_.tilt().shift(static_cast<float>(photon.position.x()),
                                                        static_cast<float>(photon.position.y()),
                                                        static_cast<float>(photon.position.z()));
-    int layer = ice_.layer_at(z);
-    const double absorption_factor = anisotropic_absorption(photon.direction, layer);
-    Segment segment;
+    Piece piece;
+    piece.layer = ice_.layer_at(z);
+    piece.absorption_depth = photon.absorption_depth;
+    piece.scattering_depth = photon.scattering_depth;
+    const double absorption_factor = anisotropic_absorption(photon.direction, piece.layer);
     for (;;) {
-      const IceLayer& ice = ice_.layers()[layer];
-      const double scattering = ice_.geometric_scattering(layer, photon.wavelength);
-      const double absorption = absorption_factor * ice_.absorption(layer, photon.wavelength);
-      const double to_scatter = scattering_depth / scattering;
-      const double to_absorb = photon.absorption_depth / absorption;
-      const int next = layer + (slope > 0 ? 1 : -1);
-      const double boundary = ice_.z_bottom() + step * (slope > 0 ? layer + 1 : layer);
-      const double to_boundary = slope == 0 || next < 0 || next > last
-                                     ? std::numeric_limits<double>::infinity()
-                                     : std::max(0.0, (boundary - z) / slope);
-      const double length = std::min({to_scatter, to_absorb, to_boundary});
-      segment.length += length;
-      segment.diffusion += length * ice.diffusion_strength;
-      segment.deflection += length * ice.deflection_strength;
-      photon.absorption_depth -= length * absorption;
-      if (length < to_boundary) {
-        segment.absorbed = to_absorb <= to_scatter;
-        segment.layer = layer;
-        return segment;
+      const IceLayer& ice = ice_.layers()[piece.layer];
+      const double scattering = ice_.geometric_scattering(piece.layer, photon.wavelength);
+      const double absorption = absorption_factor * ice_.absorption(piece.layer, photon.wavelength);
+      const double to_scatter = piece.scattering_depth / scattering;
+      const double to_absorb = piece.absorption_depth / absorption;
+      const double to_limit = limit - piece.length;
+      const int next = piece.layer + (slope > 0 ? 1 : -1);
+      const double boundary = ice_.z_bottom() + step * (slope > 0 ? piece.layer + 1 : piece.layer);
+      const double to_boundary =
+          slope == 0 || next < 0 || next > last ? unlimited : std::max(0.0, (boundary - z) / slope);
+      const double length = std::min({to_scatter, to_absorb, to_boundary, to_limit});
+      piece.length += length;
+      piece.diffusion += length * ice.diffusion_strength;
+      piece.deflection += length * ice.deflection_strength;
+      piece.absorption_depth -= length * absorption;
+      piece.scattering_depth -= length * scattering;
+      if (length < to_boundary || length == to_limit) {
+        if (length < to_limit)
+          piece.end = to_absorb <= to_scatter ? Piece::End::absorption : Piece::End::scatter;
+        return piece;
       }
-      scattering_depth -= length * scattering;
       z = boundary;
-      layer = next;
+      piece.layer = next;
     }
   }
 
@@ -125,33 +175,52 @@ class PlainWalker : public PhotonWalker {
   }
 
   // True when the photon ends here: on a module of nominal size, or back on the module that emitted it.
-  bool meet_modules(const Photon& photon, double length, double speed, std::optional<std::size_t> emitter,
-                    bool first_segment, RandomStream& random, std::vector<SimulatedHit>& hits,
-                    WalkerCounts& counts) const {
+  bool meet_modules(const Photon& photon, const Piece& piece, double speed, RandomStream& random,
+                    Task& task) const {
     const Vec3f origin = photon.position.cast<float>(), direction = photon.direction.cast<float>();
-    if (length < clearance_(origin)) return false;
-    ++counts.queries;
+    if (piece.length < clearance_(origin)) return false;
+    ++task.counts.queries;
+    const auto length = static_cast<float>(piece.length);
     std::vector<ModuleCrossing> crossings;
-    finder_->find(origin, direction, static_cast<float>(length), crossings);
-    for (ModuleCrossing crossing : crossings) {
-      if (emitter == crossing.module) {
-        const Vec3f centre = model_.detector->modules()[crossing.module].position.cast<float>();
-        if (!first_segment &&
-            cross_module(centre, 1, origin, direction, static_cast<float>(length), crossing))
-          return true;
-        continue;
-      }
+    finder_->find(origin, direction, length, crossings);
+    const float back_home = distance_to_emitter(photon, length, task);
+    for (const ModuleCrossing& crossing : crossings) {
+      if (task.emitter == crossing.module) continue;
+      if (crossing.distance > back_home) break;
       const auto wavelength = static_cast<float>(photon.wavelength);
       if (acceptance_.accepts(crossing, direction, wavelength, random)) {
         const auto time = static_cast<float>(photon.time + crossing.distance / speed);
-        hits.push_back({crossing.module, time, wavelength, direction, crossing.inward, photon.id});
+        task.hits.push_back({crossing.module, time, wavelength, direction, crossing.inward, photon.id,
+                             weight(photon, piece, crossing.distance, task.batch.absorption_stretch)});
       }
       if (oversize_ == 1) return true;
     }
-    return false;
+    return back_home <= length;
   }
 
-  void birefringent_step(Photon& photon, const Segment& segment, RandomStream& random) const {
+  // Along the path, to the emitting module at its nominal size; endless where the path does not lead there.
+  // Asked for apart from the finder: whoever is close by may already be inside the widened shape.
+  float distance_to_emitter(const Photon& photon, float length, const Task& task) const {
+    constexpr float endless = std::numeric_limits<float>::infinity();
+    if (!task.emitter || !photon.scattered) return endless;
+    const Vec3f centre = model_.detector->modules()[*task.emitter].position.cast<float>();
+    ModuleCrossing crossing{};
+    return cross_module(centre, 1, photon.position.cast<float>(), photon.direction.cast<float>(), length,
+                        crossing)
+               ? crossing.distance
+               : endless;
+  }
+
+  // Photons whose absorption is stretched by k survive the optical depth d with exp(-d/k): they count as
+  // what makes exp(-d) of it.
+  float weight(const Photon& photon, const Piece& piece, double distance, double stretch) const {
+    if (stretch == 1) return 1;
+    const Piece flown = piece.in_column ? piece_in_column(photon, distance) : piece_in_ice(photon, distance);
+    const double depth = photon.absorption_budget - flown.absorption_depth;
+    return static_cast<float>(std::exp(-depth * (1 - 1 / stretch)));
+  }
+
+  void birefringent_step(Photon& photon, const Piece& piece, RandomStream& random) const {
     if (!ice_.birefringence()) return;
     const BirefringenceNumbers& numbers = *ice_.birefringence();
     const auto [g1, g2] = gaussian_pair(random);
@@ -159,19 +228,21 @@ class PlainWalker : public PhotonWalker {
     Vec3 &n = photon.direction, &r = photon.position;
     const auto frame = flow_frame(flow_.x(), flow_.y(), n.x(), n.y(), n.z());
     const DiffusionStep one_metre = diffusion_step(numbers, std::min(frame.cosine, 1.0));
-    const double width = numbers.diffusion ? std::sqrt(segment.diffusion) : 0.0;
-    const double drift = numbers.deflection ? segment.deflection : 0.0;
+    const double width = numbers.diffusion ? std::sqrt(piece.diffusion) : 0.0;
+    const double drift = numbers.deflection ? piece.deflection : 0.0;
     birefringent_deflection(
         frame, width * one_metre.sigma_x, width * one_metre.sigma_y, drift * one_metre.mean_x, g1, g2, g3, g4,
-        numbers.displacement ? segment.length : 0.0, n.x(), n.y(), n.z(), r.x(), r.y(), r.z());
+        numbers.displacement ? piece.length : 0.0, n.x(), n.y(), n.z(), r.x(), r.y(), r.z());
+    n.normalize();
   }
 
-  void scatter(Photon& photon, int layer, RandomStream& random) const {
-    const ScatteringFunction<double> function{ice_.simplified_liu_fraction(), ice_.mean_cosine()};
+  void scatter(Photon& photon, const Piece& piece, RandomStream& random) const {
+    const ScatteringFunction<double>& function = piece.in_column ? column_scattering_ : ice_scattering_;
     const double one_minus_cos = function.one_minus_cos(random.uniform());
     const double turn = random.uniform();
-    const IceLayer& ice = ice_.layers()[layer];
-    if (ice.k1 == 0 && ice.k2 == 0) {
+    const IceLayer& ice = ice_.layers()[piece.layer];
+    photon.scattered = true;
+    if (piece.in_column || (ice.k1 == 0 && ice.k2 == 0)) {
       photon.direction = deflect(photon.direction, one_minus_cos, turn);
       return;
     }
@@ -200,7 +271,9 @@ class PlainWalker : public PhotonWalker {
   double oversize_;
   std::unique_ptr<ModuleFinder> finder_;
   ClearanceMap clearance_;
+  HoleIceColumns columns_;
   PhotonAcceptance acceptance_;
+  ScatteringFunction<double> ice_scattering_, column_scattering_;
   Eigen::Vector2d flow_;
 };
 

@@ -10,6 +10,7 @@
 #include <limits>
 #include <random>
 
+#include "data/base/constants.h"
 #include "data/base/error.h"
 #include "propagation/engine/photon_acceptance.h"
 #include "propagation/engine/walker.h"
@@ -28,6 +29,22 @@ std::uint64_t number_to_draw(double expected, const SimulationOptions& options) 
   if (options.fixed_number) return static_cast<std::uint64_t>(std::llround(expected));
   RandomStream random(options.seed, options.stream, id_of_count_draw);
   return std::poisson_distribution<std::uint64_t>(expected)(random);
+}
+
+void check_stretch(double stretch) {
+  if (!(stretch >= 1 && stretch <= 100))
+    throw UsageError(
+        fmt::format("the stretch of absorption must be at least 1 and at most 100, found {}", stretch));
+}
+
+// Weights as small as 1e-38 add nothing to any sum, and lose their digits as floats.
+void drop_weightless(std::vector<SimulatedHit>& hits) {
+  std::erase_if(hits, [](const SimulatedHit& hit) { return hit.weight < std::numeric_limits<float>::min(); });
+}
+
+void count_hits(const std::vector<SimulatedHit>& hits, SimulationSummary& summary) {
+  summary.hits += hits.size();
+  for (const SimulatedHit& hit : hits) summary.weights.add(hit.weight);
 }
 
 // The batches of a shard: the parts follow each other, so that their hits do, too.
@@ -50,6 +67,7 @@ Hit to_hit(const SimulatedHit& hit, const Detector& detector) {
   Hit result;
   result.module = detector.modules()[hit.module].id;
   result.time = hit.time;
+  result.charge = hit.weight;
   result.wavelength = hit.wavelength;
   result.direction = hit.direction;
   result.inward = hit.inward;
@@ -65,10 +83,6 @@ Simulator::Simulator(const Model& model, double oversize, EngineKind kind)
     : model_(model), oversize_(oversize) {
   if (!(oversize >= 1 && oversize <= 100))
     throw UsageError(fmt::format("the oversize factor must be between 1 and 100, found {}", oversize));
-  if (model.ice->tables().configuration.hole_ice.radius > 0)
-    throw UsageError(
-        "the hole-ice column of this ice model is not simulated yet; its effect on the angular "
-        "acceptance is in as.dat. Switch the column off with --without hole-ice");
   auto walker =
       kind == EngineKind::plain ? make_plain_walker(model, oversize) : make_vector_walker(model, oversize);
   engine_.reset(new Engine{std::move(walker), PhotonAcceptance(*model.detector, model.acceptance)});
@@ -82,6 +96,7 @@ double Simulator::photons_to_propagate(const Source& source) const {
 
 SimulationSummary Simulator::run(const Source& source, const SimulationOptions& options, const HitSink& sink,
                                  const Progress& progress) const {
+  check_stretch(options.absorption_stretch);
   const auto start = std::chrono::steady_clock::now();
   const std::uint64_t photons = number_to_draw(options.scale * photons_to_propagate(source), options);
   const auto [first_batch, end_batch] = batches_of(photons, options.shard);
@@ -93,12 +108,14 @@ SimulationSummary Simulator::run(const Source& source, const SimulationOptions& 
   for (std::int64_t b = first_batch; b < end_batch; ++b) {
     const std::uint64_t first = static_cast<std::uint64_t>(b) * batch_size;
     const PhotonBatch batch{options.seed, options.stream, first,
-                            static_cast<std::uint32_t>(std::min<std::uint64_t>(batch_size, photons - first))};
+                            static_cast<std::uint32_t>(std::min<std::uint64_t>(batch_size, photons - first)),
+                            options.absorption_stretch};
     std::vector<SimulatedHit> hits;
     WalkerCounts counts;
     std::exception_ptr problem;
     try {
       counts = engine_->walker->walk(source, batch, hits);
+      drop_weightless(hits);
     } catch (...) {
       problem = std::current_exception();
     }
@@ -111,7 +128,7 @@ SimulationSummary Simulator::run(const Source& source, const SimulationOptions& 
           summary.propagated += counts.walked;
           summary.scatters += counts.scatters;
           summary.queries += counts.queries;
-          summary.hits += hits.size();
+          count_hits(hits, summary);
           if (!hits.empty()) sink(hits);
           if (progress)
             progress(static_cast<double>(b + 1 - first_batch) / static_cast<double>(end_batch - first_batch),
@@ -125,6 +142,18 @@ SimulationSummary Simulator::run(const Source& source, const SimulationOptions& 
   if (failure) std::rethrow_exception(failure);
   summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return summary;
+}
+
+std::vector<std::string> simulation_warnings(const Model& model, double oversize) {
+  std::vector<std::string> warnings;
+  const double column = model.ice->tables().configuration.hole_ice.radius * module_radius;
+  if (oversize > 1 && column > 0)
+    warnings.push_back(fmt::format(
+        "modules widened {:g} times, to a radius of {:.2f} m, do not see what the hole-ice column, "
+        "of a radius of {:.2f} m, does to the light that reaches a module; simulate hole ice with "
+        "--oversize 1",
+        oversize, oversize * module_radius, column));
+  return warnings;
 }
 
 }  // namespace floe

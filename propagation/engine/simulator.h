@@ -5,8 +5,11 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "data/base/progress.h"
+#include "data/weights.h"
 #include "propagation/model.h"
 #include "propagation/sources/source.h"
 
@@ -20,6 +23,7 @@ struct SimulatedHit {
   Vec3f direction;       // in which the photon travels
   Vec3f inward;          // from its landing point to the module's centre, nominal size
   std::uint64_t photon;  // its number in the run; one photon may be seen more than once
+  float weight = 1;      // how many photons it stands for, in (0, 1]; 1 unless absorption is stretched
 };
 Hit to_hit(const SimulatedHit& hit, const Detector& detector);
 
@@ -38,11 +42,16 @@ struct SimulationOptions {
   double scale = 1;           // light of this many repetitions of the source
   bool fixed_number = false;  // propagate the expected number, rounded, instead of a Poisson draw
   Shard shard;
+  // k: photons live k absorption lengths on average, and a hit after the optical depth d of absorption counts
+  // exp(-d (1 - 1/k)), which keeps every expectation and lowers the variance far from the source
+  // (docs/theory/propagation.md). 1 <= k <= 100; 1: every hit counts 1.
+  double absorption_stretch = 1;
 };
 
 struct SimulationSummary {
   std::uint64_t propagated = 0;  // photons walked
   std::uint64_t hits = 0;
+  WeightSums weights;          // over the hits
   std::uint64_t scatters = 0;  // on all paths together
   std::uint64_t queries = 0;   // questions put to the geometry
   double seconds = 0;
@@ -75,5 +84,8 @@ class Simulator {
   double oversize_;
   std::unique_ptr<const Engine> engine_;
 };
+
+// What users should know of simulations of this model with modules so wide; a sentence each.
+std::vector<std::string> simulation_warnings(const Model& model, double oversize);
 
 }  // namespace floe

@@ -2,11 +2,15 @@
 // own and only when one can be in reach, and a lane whose photon has ended gets the next one.
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <optional>
 #include <utility>
 
 #include "geometry/clearance_map.h"
 #include "geometry/column_finder.h"
 #include "geometry/module_scene.h"
+#include "propagation/engine/column_lanes.h"
+#include "propagation/engine/hole_ice.h"
 #include "propagation/engine/lane_steps.h"
 #include "propagation/engine/newborns.h"
 #include "propagation/engine/photon_acceptance.h"
@@ -31,30 +35,31 @@ class VectorWalker : public PhotonWalker {
         finder_(make_embree_finder(*model.detector, oversize)),
         column_finder_(*model.detector, oversize),
         clearance_(*model.detector, oversize),
+        columns_(model),
         acceptance_(*model.detector, model.acceptance),
         wavelengths_(*model.ice, acceptance_) {}
 
   WalkerCounts walk(const Source& source, const PhotonBatch& batch,
                     std::vector<SimulatedHit>& hits) const override {
-    Batch work{source, batch, batch.first, {}, {}, {}, {}, {}};
+    Batch work{source, batch, source.emitting_module(), batch.first, {}, ColumnLanes(columns_, ice_), {}, {},
+               {},     {}};
     int alive = 0;
     for (int lane = 0; lane < Lanes::count; ++lane) alive += next_photon(work, lane);
     while (alive > 0) {
-      draw_scattering_depths(work.lanes);
-      find_heights(work.lanes);
-      find_segments(ice_, work.lanes);
-      const LaneSets sets = find_reach(clearance_.view(), work.lanes);
+      const LaneSets sets = find_pieces(work);
       std::uint64_t ended = sets.absorbed;
       for_each_lane(sets.may_meet, [&](int lane) {
         if (work.lanes.number[lane] >= 0 && meet_modules(work, lane)) ended |= std::uint64_t{1} << lane;
       });
-      advance_and_scatter(ice_, work.lanes);
+      go_on(work);
       work.counts.scatters += static_cast<std::uint64_t>(alive);
       for_each_lane(ended, [&](int lane) {
         if (work.lanes.number[lane] < 0) return;
+        work.column_lanes.ended(lane);
         --work.counts.scatters;
         alive -= !next_photon(work, lane);
       });
+      work.counts.scatters -= static_cast<std::uint64_t>(work.column_lanes.going_on());
     }
     hand_over(work, hits);
     return work.counts;
@@ -64,8 +69,10 @@ class VectorWalker : public PhotonWalker {
   struct Batch {
     const Source& source;
     const PhotonBatch& batch;
-    std::uint64_t next;  // photon to be born
-    Newborns newborns;   // of them, those still in newborns.walked wait for a lane
+    std::optional<std::size_t> emitter;  // the module whose own light this is
+    std::uint64_t next;                  // photon to be born
+    Newborns newborns;                   // of them, those still in newborns.walked wait for a lane
+    ColumnLanes column_lanes;
     Lanes lanes;
     WalkerCounts counts;
     std::vector<SimulatedHit> hits;
@@ -91,6 +98,29 @@ class VectorWalker : public PhotonWalker {
     return true;
   }
 
+  // The straight pieces of path ahead of all lanes.
+  LaneSets find_pieces(Batch& work) const {
+    if (columns_.exist())
+      work.column_lanes.draw_depths(work.lanes);
+    else
+      draw_scattering_depths(work.lanes);
+    find_heights(work.lanes);
+    find_segments(ice_, work.lanes);
+    if (columns_.exist()) work.column_lanes.cut(work.lanes);
+    return find_reach(clearance_.view(), work.lanes);
+  }
+
+  // To their ends, and into new directions.
+  void go_on(Batch& work) const {
+    if (columns_.exist()) {
+      work.column_lanes.advance(work.lanes);
+      work.column_lanes.scatter(work.lanes);
+    } else {
+      advance(ice_, work.lanes);
+      scatter(ice_, work.lanes);
+    }
+  }
+
   void find_heights(Lanes& lanes) const {
     alignas(64) float shift[Lanes::count];
     tilt_.shifts(lanes.x, lanes.y, lanes.z, shift, Lanes::count);
@@ -111,32 +141,51 @@ class VectorWalker : public PhotonWalker {
     } else {
       column_finder_.find(lanes.nearest_module[lane], origin, direction, length, work.crossings);
     }
-    if (work.crossings.empty()) return false;
-    RandomStream random = lanes.stream(lane);
-    const bool stopped = land(work, lane, origin, direction, random);
-    lanes.set_stream(lane, random);
-    return stopped;
+    const float back_home = distance_to_emitter(work, lane, origin, direction);
+    if (!work.crossings.empty()) {
+      RandomStream random = lanes.stream(lane);
+      const bool stopped = land(work, lane, direction, back_home, random);
+      lanes.set_stream(lane, random);
+      if (stopped) return true;
+    }
+    return back_home <= length;
   }
 
-  bool land(Batch& work, int lane, const Vec3f& origin, const Vec3f& direction, RandomStream& random) const {
+  // Along the path, to the emitting module at its nominal size; endless where the path does not lead there.
+  // Asked for apart from the finder: whoever is close by may already be inside the widened shape.
+  float distance_to_emitter(const Batch& work, int lane, const Vec3f& origin, const Vec3f& direction) const {
+    constexpr float endless = 1e30f;
+    if (!work.emitter || work.lanes.scatters[lane] == 0) return endless;
+    const Vec3f centre = model_.detector->modules()[*work.emitter].position.cast<float>();
+    ModuleCrossing crossing{};
+    return cross_module(centre, 1, origin, direction, work.lanes.length[lane], crossing) ? crossing.distance
+                                                                                         : endless;
+  }
+
+  // True when a module stops the photon.
+  bool land(Batch& work, int lane, const Vec3f& direction, float back_home, RandomStream& random) const {
     const Lanes& lanes = work.lanes;
-    for (ModuleCrossing crossing : work.crossings) {
-      if (work.source.emitting_module() == crossing.module) {
-        const Vec3f centre = model_.detector->modules()[crossing.module].position.cast<float>();
-        if (lanes.scatters[lane] > 0 &&
-            cross_module(centre, 1, origin, direction, lanes.length[lane], crossing))
-          return true;
-        continue;
-      }
+    for (const ModuleCrossing& crossing : work.crossings) {
+      if (work.emitter == crossing.module) continue;
+      if (crossing.distance > back_home) return false;
       if (acceptance_.accepts(crossing, direction, lanes.wavelength[lane], random)) {
         const float time = lanes.time[lane] + crossing.distance * lanes.slowness[lane];
         const std::uint64_t photon = work.batch.first + static_cast<std::uint64_t>(lanes.number[lane]);
-        work.hits.push_back(
-            {crossing.module, time, lanes.wavelength[lane], direction, crossing.inward, photon});
+        work.hits.push_back({crossing.module, time, lanes.wavelength[lane], direction, crossing.inward,
+                             photon, weight(work, lane, crossing.distance)});
       }
       if (oversize_ == 1) return true;
     }
     return false;
+  }
+
+  // Photons whose absorption is stretched by k survive the optical depth d with exp(-d/k): they count as
+  // what makes exp(-d) of it.
+  float weight(const Batch& work, int lane, float distance) const {
+    const double stretch = work.batch.absorption_stretch;
+    if (stretch == 1) return 1;
+    const float left = work.column_lanes.absorption_depth_at(work.lanes, lane, distance);
+    return static_cast<float>(std::exp(-(work.lanes.absorption_budget[lane] - left) * (1 - 1 / stretch)));
   }
 
   // Photons end out of order; hits leave in the order of the photons.
@@ -153,6 +202,7 @@ class VectorWalker : public PhotonWalker {
   std::unique_ptr<ModuleFinder> finder_;
   ColumnFinder column_finder_;
   ClearanceMap clearance_;
+  HoleIceColumns columns_;
   PhotonAcceptance acceptance_;
   WavelengthTable wavelengths_;
 };

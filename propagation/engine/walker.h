@@ -14,6 +14,7 @@ namespace floe {
 struct PhotonBatch {
   std::uint64_t seed, stream, first;
   std::uint32_t count;
+  double absorption_stretch = 1;  // k, see SimulationOptions
 };
 
 struct WalkerCounts {
@@ -31,8 +32,11 @@ class PhotonWalker {
 
 // The order in which every walker draws a photon's numbers:
 //   birth: those of Source::emit(), one for being walked at all, one for the absorption length;
-//   each segment: one for its length; one for each module met;
-//   each scatter: four for the birefringent step (where the ice has it), two for the angle.
+//   each segment, from birth or a scatter to the next scatter: one for its length;
+//   each piece of a segment, which the surfaces of hole-ice columns cut (without columns a segment is one
+//   piece): one for each module met; four for the birefringent step (where the ice has it, for pieces
+//   outside columns, and not after the photon's last piece);
+//   each scatter: two for the angle.
 std::unique_ptr<PhotonWalker> make_plain_walker(const Model& model, double oversize);
 std::unique_ptr<PhotonWalker> make_vector_walker(const Model& model, double oversize);
 

@@ -16,8 +16,9 @@ namespace floe {
 
 namespace {
 
-constexpr double reference_wavelength = 400;  // of the tables [nm]
-constexpr double lone_layer_step = 100;       // a single layer fills all space; any step will do [m]
+constexpr double reference_wavelength = 400;               // of the tables [nm]
+constexpr double shortest_seen = 260, longest_seen = 680;  // by modules, wv.dat of published models [nm]
+constexpr double lone_layer_step = 100;  // a single layer fills all space; any step will do [m]
 
 double thermal_factor(const WavelengthDependence& w, double wavelength) {
   return w.A * std::exp(-w.B / wavelength);
@@ -92,7 +93,7 @@ IceModel::IceModel(IceTables tables, const Detector& detector) : tables_(std::mo
 // Sums of positive and negative shares must stay positive wherever there is light to propagate.
 void IceModel::expect_light_transport() const {
   for (int layer = 0; layer < static_cast<int>(layers_.size()); ++layer)
-    for (double wavelength = 300; wavelength <= 600; wavelength += 10) {
+    for (double wavelength = shortest_seen; wavelength <= longest_seen; wavelength += 10) {
       const double scattering = effective_scattering(layer, wavelength);
       const double absorbed = absorption(layer, wavelength);
       if (scattering > 0 && absorbed > 0) continue;

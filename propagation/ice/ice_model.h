@@ -32,7 +32,7 @@ struct IceLayer {
 class IceModel {
  public:
   // Throws InputError when a value is not physical: scattering or absorption not positive in a layer
-  // at any wavelength of 300-600 nm, g outside (-1, 1), fractions outside [0, 1], ...
+  // at any wavelength of 260-680 nm, g outside (-1, 1), fractions outside [0, 1], ...
   IceModel(IceTables tables, const Detector& detector);
 
   const std::string& name() const { return tables_.name; }

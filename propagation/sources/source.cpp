@@ -14,4 +14,20 @@ EmittedPhoton Source::emit(RandomStream& random) const {
           photons.wavelength[0]};
 }
 
+void OneByOneSource::emit(RandomStreams& random, EmittedPhotons& photons) const {
+  for (int i = 0; i < EmittedPhotons::count; ++i) {
+    RandomStream stream = random[i];
+    const EmittedPhoton photon = emit_one(stream);
+    random.set(i, stream);
+    photons.x[i] = photon.position.x();
+    photons.y[i] = photon.position.y();
+    photons.z[i] = photon.position.z();
+    photons.time[i] = photon.time;
+    photons.nx[i] = photon.direction.x();
+    photons.ny[i] = photon.direction.y();
+    photons.nz[i] = photon.direction.z();
+    photons.wavelength[i] = photon.wavelength;
+  }
+}
+
 }  // namespace floe

@@ -35,11 +35,22 @@ class Source {
   // call from many threads.
   virtual void emit(RandomStreams& random, EmittedPhotons& photons) const = 0;
 
-  // Draws one photon, the same as it would be among many.
+  // Draws one photon, the same as it would be among many. (A source that has its own emit() of many needs
+  // `using Source::emit;` to be asked for one.)
   EmittedPhoton emit(RandomStream& random) const;
 
   // The module whose own light this is; it does not see it.
   virtual std::optional<std::size_t> emitting_module() const { return std::nullopt; }
+};
+
+// For sources that are written one photon at a time, which is easier and slower.
+class OneByOneSource : public Source {
+ public:
+  using Source::emit;
+  void emit(RandomStreams& random, EmittedPhotons& photons) const final;
+
+ protected:
+  virtual EmittedPhoton emit_one(RandomStream& random) const = 0;
 };
 
 }  // namespace floe

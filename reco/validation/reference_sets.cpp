@@ -74,7 +74,7 @@ ValidationResult validate_set(const ReferenceSet& set, const ValidationOptions& 
   ModelRequest request;
   request.ice = (options.ice_models / set.ice).string();
   request.without = set.without;
-  const Simulator simulator(load_model(request), reference_oversize);
+  const Simulator simulator(load_model(request), reference_oversize, options.engine);
 
   Collector collector(*simulator.model().detector);
   SimulationOptions simulation;

@@ -30,6 +30,7 @@ struct ValidationOptions {
   std::filesystem::path reference;   // folder of the .hits.gz files
   std::filesystem::path ice_models;  // folder of the public ice models
   double share = 1;                  // simulated light in units of the reference's
+  EngineKind engine = EngineKind::vector;
   std::uint64_t seed = 1;
   int threads = 0;
 };

@@ -16,25 +16,7 @@ using test::line_at_400;
 using test::make_model;
 using test::uniform_tables;
 
-// Both engines go through the same scenes.
-class ClosedForm : public ::testing::TestWithParam<EngineKind> {
- protected:
-  // The plain engine gets less light: it is slower.
-  double light(double photons) const { return GetParam() == EngineKind::plain ? photons / 10 : photons; }
-
-  std::vector<SimulatedHit> simulate(const Model& model, const Source& source, double oversize,
-                                     std::uint64_t seed = 1) const {
-    const Simulator simulator(model, oversize, GetParam());
-    SimulationOptions options;
-    options.seed = seed;
-    options.fixed_number = true;
-    std::vector<SimulatedHit> hits;
-    simulator.run(source, options, [&](std::span<const SimulatedHit> portion) {
-      hits.insert(hits.end(), portion.begin(), portion.end());
-    });
-    return hits;
-  }
-};
+class ClosedForm : public test::BothEngines {};
 
 // Without scattering, isotropic light reaches a sphere of radius R at distance d with probability
 // (1 - sqrt(1 - (R/d)^2))/2, dimmed by absorption, after d/v.
@@ -171,10 +153,7 @@ TEST_P(ClosedForm, TheFlashingModuleIsBlindToItself) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, ClosedForm, ::testing::Values(EngineKind::vector, EngineKind::plain),
-                         [](const auto& engine) {
-                           return engine.param == EngineKind::vector ? "vector" : "plain";
-                         });
+FLOE_INSTANTIATE_ENGINES(ClosedForm);
 
 TEST(OldAbsorptionAnisotropy, IsNothingInIsotropicIce) {
   EXPECT_NEAR(old_absorption_factor(0.0, 0.0, 1.0, 0.6, 0.0, 0.8), 1, 1e-12);

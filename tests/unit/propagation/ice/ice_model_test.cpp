@@ -192,8 +192,8 @@ const std::vector<Unphysical> unphysical_tables{
      [](IceTables& t) { t.layers[1].birefringence_strength = 50; },
      {"1310", "birefringent share", "exceeds the scattering", "strength A"}},
     {"ShareAtLongWavelengthsOnly",
-     [](IceTables& t) { t.layers[1].birefringence_strength = 0.07 / 0.00246857; },
-     {"1310", "birefringent share"}},
+     [](IceTables& t) { t.layers[1].birefringence_strength = 0.052 / 0.00246857; },
+     {"1310", "birefringent share", "nm"}},
     {"AbsorptionOfVersionTwenty",
      [](IceTables& t) {
        t.version = 20;
