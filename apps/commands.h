@@ -11,6 +11,7 @@ void add_info(CLI::App& floe);
 void add_simulate(CLI::App& floe, const std::string& command_line);
 void add_reconstruct(CLI::App& floe);
 void add_compare(CLI::App& floe);
+void add_study(CLI::App& floe);
 void add_import(CLI::App& floe, const std::string& command_line);
 void add_export(CLI::App& floe);
 void add_merge(CLI::App& floe, const std::string& command_line);

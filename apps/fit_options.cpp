@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+
 #include "apps/option_values.h"
 #include "data/base/error.h"
+#include "data/base/text.h"
 
 namespace floe {
 
@@ -20,7 +24,64 @@ Json covariance_json(const CascadeFit& fit) {
   return rows;
 }
 
+ModuleId parse_module(const std::string& option, const std::string& text) {
+  const std::vector<std::string> parts = split_list(text);
+  if (parts.size() != 2)
+    throw UsageError(fmt::format("{}: found \"{}\"; expected STRING,DOM, e.g. 63,20", option, text));
+  return {static_cast<int>(parse_option_integer(option, parts[0], 0, 100000)),
+          static_cast<int>(parse_option_integer(option, parts[1], 0, 100000))};
+}
+
+ModuleId module_of(const TextLine& line) {
+  return {static_cast<int>(parse_integer(line, 0, "string")),
+          static_cast<int>(parse_integer(line, 1, "DOM"))};
+}
+
+std::map<ModuleId, double> read_noise(const std::string& file) {
+  std::map<ModuleId, double> noise;
+  for (const TextLine& line : read_text_lines(file)) {
+    expect_fields(line, 3, 3, "string, DOM, noise rate [1/s]");
+    const double rate = parse_number(line, 2, "noise rate [1/s]");
+    expect_range(line, rate, 0, 1e6, "noise rate [1/s]");
+    noise[module_of(line)] = rate;
+  }
+  return noise;
+}
+
 }  // namespace
+
+std::vector<ModuleId> parse_modules(const std::string& option, const std::string& text) {
+  std::vector<ModuleId> modules;
+  if (text.empty() || text.find_first_not_of("0123456789,; ") != std::string::npos) {
+    for (const TextLine& line : read_text_lines(text)) {
+      expect_fields(line, 2, 2, "string, DOM");
+      modules.push_back(module_of(line));
+    }
+    return modules;
+  }
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(';', begin), text.size());
+    modules.push_back(parse_module(option, text.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return modules;
+}
+
+TimeWindow parse_window(const std::string& option, const std::string& text) {
+  TimeWindow window;
+  std::string times = text;
+  if (const std::size_t colon = text.find(':'); colon != std::string::npos) {
+    window.module = parse_module(option, text.substr(0, colon));
+    times = text.substr(colon + 1);
+  }
+  const std::vector<std::string> parts = split_list(times);
+  if (parts.size() != 2)
+    throw UsageError(
+        fmt::format("{}: found \"{}\"; expected BEGIN,END or STRING,DOM:BEGIN,END [ns]", option, text));
+  window.begin = parse_option_number(option, parts[0], any_number);
+  window.end = parse_option_number(option, parts[1], {window.begin, any_number.high, true});
+  return window;
+}
 
 void add_fit_options(CLI::App& app, FitSettings& settings) {
   app.add_option("--hypothesis", settings.hypothesis,
@@ -29,7 +90,19 @@ void add_fit_options(CLI::App& app, FitSettings& settings) {
       ->capture_default_str();
   add_number(app, "--model-error", "SIGMA", {0, 10}, "Relative error granted to every expectation",
              settings.model_error);
+  app.add_option("--bad", settings.bad, "Modules to leave out, or a file with STRING DOM on a line")
+      ->type_name("STRING,DOM[;...]|FILE")
+      ->allow_extra_args(false);
+  app.add_option("--leave-out", settings.left_out, "Times to leave out [ns], of all modules or of one")
+      ->type_name("[STRING,DOM:]BEGIN,END")
+      ->allow_extra_args(false);
   add_number(app, "--noise-rate", "HZ", {0, 1e6}, "Of dark noise in every module", settings.noise_rate);
+  app.add_option("--noise", settings.noise_file,
+                 "Dark noise of modules where it differs: STRING DOM HZ on a line")
+      ->type_name("FILE");
+  add_number(app, "--charge-cap", "PE", positive,
+             "Charge at which a module saturates: of more, only is used that it is as much or more",
+             [&settings](double cap) { settings.charge_cap = cap; });
   add_number(app, "--effort", "X", {0, 1000, true}, "Multiplies the number of simulated photons",
              settings.effort);
   add_simulation_options(app, settings.simulation);
@@ -45,9 +118,37 @@ FitOptions to_fit_options(const FitSettings& settings) {
   options.seed = settings.simulation.seed;
   options.threads = settings.simulation.threads;
   options.model_error = settings.model_error;
-  options.noise_rate = settings.noise_rate;
   options.effort = settings.effort;
+  DataSelection& selection = options.selection;
+  for (const std::string& text : settings.bad)
+    for (const ModuleId module : parse_modules("--bad", text)) selection.bad.push_back(module);
+  for (const std::string& text : settings.left_out)
+    selection.left_out.push_back(parse_window("--leave-out", text));
+  selection.noise_rate = settings.noise_rate;
+  if (settings.noise_file) selection.noise_of = read_noise(*settings.noise_file);
+  if (settings.charge_cap) selection.charge_cap = *settings.charge_cap;
   return options;
+}
+
+Json to_json(const FitOptions& options) {
+  const auto name = [](ModuleId id) { return fmt::format("{},{}", id.string, id.dom); };
+  Json bad = Json::array(), left_out = Json::array(), noise = Json::object();
+  for (const ModuleId id : options.selection.bad) bad.push_back(name(id));
+  for (const TimeWindow& window : options.selection.left_out)
+    left_out.push_back({{"module", window.module ? Json(name(*window.module)) : Json()},
+                        {"begin_ns", window.begin},
+                        {"end_ns", window.end}});
+  for (const auto& [id, rate] : options.selection.noise_of) noise[name(id)] = rate;
+  return {{"hypothesis", options.kind == CascadeKind::hadron ? "hadron" : "em"},
+          {"oversize", options.oversize},
+          {"model_error", options.model_error},
+          {"seed", options.seed},
+          {"effort", options.effort},
+          {"bad", bad},
+          {"left_out", left_out},
+          {"noise_rate", options.selection.noise_rate},
+          {"noise_of", noise},
+          {"charge_cap", options.selection.charge_cap}};
 }
 
 Json fit_json(const CascadeFit& fit) {

@@ -35,6 +35,7 @@ void add_commands(CLI::App& app, const std::string& command_line) {
   floe::add_simulate(app, command_line);
   floe::add_reconstruct(app);
   floe::add_compare(app);
+  floe::add_study(app);
   floe::add_import(app, command_line);
   floe::add_export(app);
   floe::add_merge(app, command_line);

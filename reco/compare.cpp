@@ -28,7 +28,7 @@ void measure(const std::array<SimulatedLight*, 2>& light, const EventData& data,
   std::array<Evaluation, 2> values;
   for (std::size_t i = 0; i < 2; ++i) {
     values[i] = evaluate_cascade(*light[i], data, result.fits[i].cascade, photons, options.oversize, repeats,
-                                 first_stream, options.model_error, options.noise_rate);
+                                 first_stream, options.model_error);
     for (const LightSample& sample : values[i].samples) {
       ++result.fits[i].simulations;
       result.fits[i].photons += sample.propagated;
@@ -56,7 +56,7 @@ ModelComparison compare_models(const Model& a, const Model& b, const Event& even
   if (!same_modules(*a.detector, *b.detector))
     throw UsageError("compare: the two models have different modules (" + a.detector->name() + ", " +
                      b.detector->name() + "); give both the same with --detector");
-  const EventData data(*a.detector, event);
+  const EventData data(*a.detector, event, options.selection);
   ModelComparison result;
   result.event = event.id;
 

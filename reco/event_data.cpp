@@ -1,6 +1,7 @@
 #include "reco/event_data.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -34,39 +35,48 @@ void sort_by_time(ModuleData& data) {
   data = std::move(sorted);
 }
 
-void cut_into_bins(ModuleData& data, double begin, double end) {
-  data.edges = block_edges(data.times, data.charges, begin, end);
-  data.counts.assign(data.edges.size() + 1, 0);
-  for (std::size_t i = 0; i < data.times.size(); ++i) {
-    const auto bin =
-        std::upper_bound(data.edges.begin(), data.edges.end(), data.times[i]) - data.edges.begin();
-    data.counts[static_cast<std::size_t>(bin)] += data.charges[i];
-  }
+bool concerns(const TimeWindow& window, ModuleId module) {
+  return !window.module || *window.module == module;
+}
+
+bool is_left_out(std::span<const TimeWindow> windows, ModuleId module, double time) {
+  return std::any_of(windows.begin(), windows.end(), [&](const TimeWindow& window) {
+    return concerns(window, module) && time >= window.begin && time < window.end;
+  });
 }
 
 }  // namespace
 
-EventData::EventData(const Detector& detector, const Event& event)
-    : detector_(&detector), id_(event.id), repeats_(event.repeats) {
+EventData::EventData(const Detector& detector, const Event& event, const DataSelection& selection)
+    : detector_(&detector), selection_(selection), id_(event.id), repeats_(event.repeats) {
+  check(selection);
   if (!(std::isfinite(repeats_) && repeats_ > 0))
     throw InputError({"event " + id_, 0}, "an average over " + std::to_string(repeats_) + " repetitions",
                      "a number of repetitions above 0");
+  std::vector<bool> used(detector.size());
+  for (std::size_t i = 0; i < detector.size(); ++i) used[i] = detector.modules()[i].on;
+  for (const ModuleId module : selection.bad) used[detector.index_of(module)] = false;
+
   std::vector<ModuleData> modules(detector.size());
   first_ = std::numeric_limits<double>::infinity();
   last_ = -first_;
   for (const Hit& hit : event.hits) {
     check(hit, id_);
     const std::size_t index = detector.index_of(hit.module);
-    if (!detector.modules()[index].on || hit.charge == 0) continue;
+    if (!used[index] || hit.charge == 0 || is_left_out(selection.left_out, hit.module, hit.time)) continue;
     modules[index].times.push_back(hit.time);
     modules[index].charges.push_back(hit.charge * repeats_);
     first_ = std::min(first_, hit.time);
     last_ = std::max(last_, hit.time);
   }
+  if (first_ > last_) first_ = last_ = 0;
   for (std::size_t i = 0; i < modules.size(); ++i) {
     const auto index = static_cast<std::uint32_t>(i);
-    if (!detector.modules()[i].on) continue;
-    if (modules[i].times.empty()) {
+    if (!used[i]) continue;
+    const ModuleId id = detector.modules()[i].id;
+    const bool cut = std::any_of(selection.left_out.begin(), selection.left_out.end(),
+                                 [&](const TimeWindow& window) { return concerns(window, id); });
+    if (modules[i].times.empty() && !cut) {
       dark_.push_back(index);
       continue;
     }
@@ -75,13 +85,65 @@ EventData::EventData(const Detector& detector, const Event& event)
     data.charge = std::accumulate(data.charges.begin(), data.charges.end(), 0.0);
     charge_ += data.charge;
     sort_by_time(data);
-    cut_into_bins(data, first_ - margin, last_ + margin);
+    data.saturated = data.charge >= selection.charge_cap * repeats_;
+    cut_into_bins(data, block_edges(data.times, data.charges, begin(), end()));
   }
 }
 
+void EventData::cut_into_bins(ModuleData& data, std::vector<double> edges) const {
+  if (data.saturated) edges.clear();
+  const ModuleId id = detector_->modules()[data.module].id;
+  for (const TimeWindow& window : selection_.left_out)
+    if (concerns(window, id) && !data.saturated)
+      for (const double edge : {window.begin, window.end})
+        if (std::isfinite(edge)) edges.push_back(edge);
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+
+  data.edges = std::move(edges);
+  const std::size_t bins = data.edges.size() + 1;
+  data.counts.assign(bins, 0);
+  data.noise.assign(bins, 0);
+  data.left_out.assign(bins, false);
+  if (data.saturated) {
+    data.counts[0] = selection_.charge_cap * repeats_;
+    data.noise[0] = selection_.noise(id) * 1e-9 * (end() - begin());
+    return;
+  }
+  for (std::size_t b = 0; b < bins; ++b) {
+    const double low = b == 0 ? begin() : std::max(begin(), data.edges[b - 1]);
+    const double high = b + 1 == bins ? end() : std::min(end(), data.edges[b]);
+    data.noise[b] = selection_.noise(id) * 1e-9 * std::max(0.0, high - low);
+    // Edges of windows are edges of bins: a bin lies inside or outside.
+    const double inside = data.edges.empty() ? 0
+                          : b == 0           ? data.edges[0] - 1
+                          : b + 1 == bins    ? data.edges[b - 1] + 1
+                                             : 0.5 * (data.edges[b - 1] + data.edges[b]);
+    data.left_out[b] = is_left_out(selection_.left_out, id, inside);
+  }
+  for (std::size_t i = 0; i < data.times.size(); ++i) {
+    const auto bin =
+        std::upper_bound(data.edges.begin(), data.edges.end(), data.times[i]) - data.edges.begin();
+    data.counts[static_cast<std::size_t>(bin)] += data.charges[i];
+  }
+}
+
+EventData EventData::with_edges(std::span<const std::vector<double>> edges) const {
+  assert(edges.size() == lit_.size());
+  EventData result = *this;
+  for (std::size_t i = 0; i < edges.size(); ++i) cut_into_bins(result.lit_[i], edges[i]);
+  return result;
+}
+
+double EventData::dark_noise(std::uint32_t module) const {
+  return selection_.noise(detector_->modules()[module].id) * 1e-9 * (end() - begin());
+}
+
 void EventData::require_enough_light() const {
-  if (lit_.size() >= least_modules && charge_ >= least_charge) return;
-  throw NoResult("not enough light: " + std::to_string(lit_.size()) + " modules with hits and " +
+  const auto modules = static_cast<std::size_t>(
+      std::count_if(lit_.begin(), lit_.end(), [](const ModuleData& data) { return data.charge > 0; }));
+  if (modules >= least_modules && charge_ >= least_charge) return;
+  throw NoResult("not enough light: " + std::to_string(modules) + " modules with hits and " +
                  std::to_string(std::lround(charge_)) + " photoelectrons; a fit needs " +
                  std::to_string(least_modules) + " modules and " + std::to_string(std::lround(least_charge)) +
                  " photoelectrons");
@@ -94,8 +156,9 @@ std::size_t EventData::bins() const {
 }
 
 std::vector<std::size_t> EventData::brightest(std::size_t n) const {
-  std::vector<std::size_t> order(lit_.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < lit_.size(); ++i)
+    if (lit_[i].charge > 0) order.push_back(i);
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return lit_[a].charge > lit_[b].charge; });
   order.resize(std::min(n, order.size()));

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "data/event.h"
 #include "geometry/detector.h"
+#include "reco/data_selection.h"
 
 namespace floe {
 
@@ -15,17 +17,25 @@ struct ModuleData {
   std::vector<double> times;    // rising [ns]
   std::vector<double> charges;  // of the same length [photoelectrons, of all repetitions together]
   double charge = 0;            // sum
-  std::vector<double> edges;    // inner edges of the time bins [ns], rising; see block_edges
-  std::vector<double> counts;   // charge in each bin: edges.size() + 1 numbers
+  // Its charge reached the cap: one bin, whose count is the cap and stands for "so much or more".
+  bool saturated = false;
+  std::vector<double> edges;   // inner edges of the time bins [ns], rising; see block_edges
+  std::vector<double> counts;  // charge in each bin: edges.size() + 1 numbers
+  std::vector<double> noise;   // expected dark counts of one event in each bin
+  std::vector<bool> left_out;  // bins that are not used; their counts are 0
 };
 
 // The hits of one event sorted by module and cut into bins: Bayesian blocks over 25 ns cells where there
-// are hits, one bin for a module without. Modules that are off are left out on both sides.
+// are hits, one bin for a module without. Modules that are off or bad are left out on both sides.
 class EventData {
  public:
   // Throws InputError for a module that the detector does not have, for times that are not finite and
   // for charges that are negative or not finite. Hits of charge 0 and of switched-off modules are ignored.
-  EventData(const Detector& detector, const Event& event);
+  // `selection`: see there; throws UsageError when it makes no sense.
+  EventData(const Detector& detector, const Event& event, const DataSelection& selection = {});
+
+  // The same hits in other bins: inner edges [ns], rising, for every module of lit().
+  EventData with_edges(std::span<const std::vector<double>> edges) const;
 
   // How far the range in which blocks are sought goes beyond the event's hits [ns].
   static constexpr double margin = 200;
@@ -38,17 +48,26 @@ class EventData {
 
   const Detector& detector() const { return *detector_; }  // must outlive this
   const std::string& id() const { return id_; }
-  double repeats() const { return repeats_; }                  // n_d: charges are sums over so many events
-  const std::vector<ModuleData>& lit() const { return lit_; }  // with hits, by module index
-  const std::vector<std::uint32_t>& dark() const { return dark_; }  // on, without hits
+  double repeats() const { return repeats_; }  // n_d: charges are sums over so many events
+  // With hits, or with times left out; by module index.
+  const std::vector<ModuleData>& lit() const { return lit_; }
+  const std::vector<std::uint32_t>& dark() const { return dark_; }  // the others that are on: one bin each
+  double dark_noise(std::uint32_t module) const;                    // expected dark counts of one event
   double charge() const { return charge_; }
   double first_time() const { return first_; }
   double last_time() const { return last_; }
-  std::size_t bins() const;                                 // of all modules
-  std::vector<std::size_t> brightest(std::size_t n) const;  // places in lit(), by falling charge
+  // Where the outermost bins end, for all that needs a finite width [ns].
+  double begin() const { return first_ - margin; }
+  double end() const { return last_ + margin; }
+  std::size_t bins() const;  // of all modules
+  std::vector<std::size_t> brightest(
+      std::size_t n) const;  // places in lit(), by falling charge, without empty ones
 
  private:
+  void cut_into_bins(ModuleData& data, std::vector<double> edges) const;
+
   const Detector* detector_;
+  DataSelection selection_;
   std::string id_;
   double repeats_ = 1, charge_ = 0, first_ = 0, last_ = 0;
   std::vector<ModuleData> lit_;

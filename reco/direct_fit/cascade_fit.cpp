@@ -26,7 +26,6 @@ void check(const FitOptions& o) {
   };
   need(o.oversize >= 1 && o.oversize <= 100, "oversize must be 1 to 100");
   need(o.model_error >= 0 && o.model_error <= 2, "model error must be 0 to 2");
-  need(o.noise_rate >= 0 && o.noise_rate <= 1e6, "noise rate must be 0 to 1e6 per second");
   need(std::isfinite(o.effort) && o.effort > 0, "effort must be above 0");
   need(o.max_rounds >= 1, "at least one round is needed");
   need(o.threads >= 0, "the number of threads must not be negative");
@@ -109,10 +108,9 @@ void find_result(ExpectationModel& light, const EventData& data, const FitOption
   fit.covariance = jacobian * end.covariance * jacobian.transpose();
 
   if (progress) progress(0.92, "measuring the fit");
-  const double photons = search.useful_photons(fit.cascade, 3, 4e6, 1.2e7);
-  const Evaluation evaluation =
-      evaluate_cascade(light, data, fit.cascade, photons, options.oversize, evaluations, evaluation_stream,
-                       options.model_error, options.noise_rate);
+  const double photons = search.useful_photons(fit.cascade, options.oversize, 1, 5e5, 1.2e7);
+  const Evaluation evaluation = evaluate_cascade(light, data, fit.cascade, photons, options.oversize,
+                                                 evaluations, evaluation_stream, options.model_error);
   for (const LightSample& sample : evaluation.samples) ++fit.simulations, fit.photons += sample.propagated;
   measure_goodness(data, evaluation, options, fit);
   for (const std::size_t i : data.brightest(pictured_modules))
@@ -147,7 +145,7 @@ Matrix7 CascadeFit::covariance_in_degrees() const {
 CascadeFit fit_cascade(const Model& model, const Event& event, const FitOptions& options,
                        const Progress& progress) {
   check(options);
-  const EventData data(*model.detector, event);
+  const EventData data(*model.detector, event, options.selection);
   SimulatedLight light(model, options.kind, options.seed, options.threads);
   return fit_cascade(light, data, options, progress);
 }

@@ -11,6 +11,7 @@
 #include "data/base/progress.h"
 #include "data/event.h"
 #include "propagation/model.h"
+#include "reco/data_selection.h"
 #include "reco/direct_fit/cascade_parameters.h"
 
 namespace floe {
@@ -23,7 +24,7 @@ struct FitOptions {
   CascadeKind kind = CascadeKind::electron;
   double oversize = 5;       // of the modules in the last rounds, 1-100; that of the data if simulated
   double model_error = 0.1;  // sigma of the log-normal error of every bin's expectation; >= 0
-  double noise_rate = 0;     // of one module [1/s]; added to every bin's expectation; >= 0
+  DataSelection selection;   // modules and times left out, dark noise, saturation
   std::uint64_t seed = 1;
   int threads = 0;      // 0: all cores; the result does not depend on it
   double effort = 1;    // multiplies the number of photons; > 0

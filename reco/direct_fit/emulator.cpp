@@ -21,18 +21,16 @@ Emulator::Emulator(const EventData& data, const MeanIce& ice, const LightCentre&
   for (const ModuleLight& module : modules_)
     for (std::size_t b = 0; b < module.bin_count(); ++b) {
       const Regression& fit = module.bins[b];
-      bins_.push_back(
-          {module.data ? module.data->counts[b] : 0, 1 / (fit.covariance(0, 0) + fit.excess_variance)});
+      Bin bin;
+      bin.effective_counts = 1 / (fit.covariance(0, 0) + fit.excess_variance);
+      bin.noise = module.data ? module.data->noise[b] : data.dark_noise(module.index);
+      if (module.data) {
+        bin.data = module.data->counts[b];
+        bin.saturated = module.data->saturated;
+        bin.left_out = module.data->left_out[b];
+      }
+      bins_.push_back(bin);
     }
-}
-
-double Emulator::noise_counts(const ModuleLight& module, std::size_t bin) const {
-  if (settings_.noise_rate == 0) return 0;
-  const double begin = data_->first_time() - EventData::margin, end = data_->last_time() + EventData::margin;
-  const double shift = frame_.origin().time + light_slowness() * module.distance;
-  const double low = bin == 0 ? begin : module.edges[bin - 1] + shift;
-  const double high = bin + 1 == module.bin_count() ? end : module.edges[bin] + shift;
-  return settings_.noise_rate * 1e-9 * std::max(0.0, high - low);
 }
 
 void Emulator::evaluate_module(const ModuleLight& module, std::size_t first_bin, const Vector7& p,
@@ -68,7 +66,7 @@ void Emulator::evaluate_module(const ModuleLight& module, std::size_t first_bin,
       e.gradient(5) = slope;
       low = high, low_shifted = high_shifted, low_density = high_density;
     }
-    const double noise = noise_counts(module, b);
+    const double noise = bins_[first_bin + b].noise;
     if (noise > 0) {
       const double mean = std::exp(e.log_mean);
       e.log_mean = std::log(mean + noise);
@@ -88,15 +86,19 @@ void Emulator::evaluate(const Vector7& p, std::vector<Evaluation>& result) const
   }
 }
 
+BinLikelihood Emulator::likelihood(const Bin& bin, double log_mean) const {
+  if (bin.left_out) return {};
+  const BinCounts counts{bin.data, repeats(), bin.effective_counts,
+                         bin.effective_counts / std::exp(log_mean)};
+  return bin.saturated ? at_least(counts, settings_.model_error)
+                       : limited_simulation(counts, settings_.model_error);
+}
+
 double Emulator::neg_llh(const Vector7& p) const {
   std::vector<Evaluation> values;
   evaluate(p, values);
   double sum = 0;
-  for (std::size_t i = 0; i < bins_.size(); ++i) {
-    const BinCounts counts{bins_[i].data, repeats(), bins_[i].effective_counts,
-                           bins_[i].effective_counts / std::exp(values[i].log_mean)};
-    sum += limited_simulation(counts, settings_.model_error).value;
-  }
+  for (std::size_t i = 0; i < bins_.size(); ++i) sum += likelihood(bins_[i], values[i].log_mean).value;
   return sum;
 }
 
@@ -104,26 +106,15 @@ Matrix7 Emulator::information(const Vector7& p) const {
   std::vector<Evaluation> values;
   evaluate(p, values);
   Matrix7 sum = Matrix7::Zero();
-  for (std::size_t i = 0; i < bins_.size(); ++i)
-    sum += expected_curvature(repeats() * std::exp(values[i].log_mean), bins_[i].effective_counts,
-                              settings_.model_error) *
-           values[i].gradient * values[i].gradient.transpose();
-  return sum;
-}
-
-Matrix7 cross_information(const Emulator& a, const Emulator& b) {
-  std::vector<Emulator::Evaluation> values_a, values_b;
-  a.evaluate(Vector7::Zero(), values_a);
-  b.evaluate(Vector7::Zero(), values_b);
-  assert(values_a.size() == values_b.size());
-  Matrix7 sum = Matrix7::Zero();
-  for (std::size_t i = 0; i < values_a.size(); ++i) {
-    const double mean = std::exp(0.5 * (values_a[i].log_mean + values_b[i].log_mean));
-    const double simulated = a.bins()[i].effective_counts + b.bins()[i].effective_counts;
-    sum += expected_curvature(a.repeats() * mean, simulated, a.settings().model_error) *
-           values_a[i].gradient * values_b[i].gradient.transpose();
+  for (std::size_t i = 0; i < bins_.size(); ++i) {
+    if (bins_[i].left_out) continue;
+    const double weight = bins_[i].saturated
+                              ? likelihood(bins_[i], values[i].log_mean).curvature
+                              : expected_curvature(repeats() * std::exp(values[i].log_mean),
+                                                   bins_[i].effective_counts, settings_.model_error);
+    sum += weight * values[i].gradient * values[i].gradient.transpose();
   }
-  return 0.5 * (sum + sum.transpose());
+  return sum;
 }
 
 }  // namespace floe

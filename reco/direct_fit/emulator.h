@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "reco/direct_fit/emulator_training.h"
+#include "reco/likelihood/limited_simulation.h"
 
 namespace floe {
 
 struct EmulatorSettings {
   CascadeKind kind = CascadeKind::electron;
   double model_error = 0.1;
-  double noise_rate = 0;        // of one module [1/s]
   double position_step = 10;    // size of the design around the origin [m]
   double direction_step = 0.2;  // [rad]
   int threads = 0;
@@ -30,7 +30,10 @@ class Emulator {
     Eigen::Matrix<double, 7, 1> gradient;  // of log_mean with respect to p
   };
   struct Bin {
-    double data = 0;              // counts in all repetitions together
+    double data = 0;         // counts in all repetitions together
+    double noise = 0;        // expected dark counts of one event
+    bool saturated = false;  // `data` is what there is at least
+    bool left_out = false;
     double effective_counts = 0;  // the simulation's size: 1 / variance of ln mu
   };
 
@@ -45,6 +48,8 @@ class Emulator {
 
   // All bins' expectations at p, in the order of bins().
   void evaluate(const Vector7& p, std::vector<Evaluation>& result) const;
+  // -ln L of one bin when ln(expected counts of one event) is `log_mean`.
+  BinLikelihood likelihood(const Bin& bin, double log_mean) const;
   // -ln L of the data at p.
   double neg_llh(const Vector7& p) const;
   // Expected Fisher information at p, with the simulation's noise and the model error.
@@ -54,7 +59,6 @@ class Emulator {
   void evaluate_module(const ModuleLight& module, std::size_t first_bin, const Vector7& p,
                        const LightCentre& at, const LocalFrame::DirectionChange& turn,
                        std::vector<Evaluation>& result) const;
-  double noise_counts(const ModuleLight& module, std::size_t bin) const;
 
   const EventData* data_;
   LocalFrame frame_;
@@ -62,10 +66,5 @@ class Emulator {
   std::vector<ModuleLight> modules_;
   std::vector<Bin> bins_;
 };
-
-// The information at the common origin of two emulators that were trained on independent simulations: with
-// the product of the gradients of one and the other, their noise does not pass for information, as it does
-// in the square. Symmetric, but not always positive definite.
-Matrix7 cross_information(const Emulator& a, const Emulator& b);
 
 }  // namespace floe

@@ -12,15 +12,8 @@
 namespace floe {
 namespace {
 
-// Inner edges of a module's bins become outer ones here: for noise, the first and last bin are finite.
-double width(const EventData& data, const ModuleData& lit, std::size_t bin) {
-  const double low = bin == 0 ? data.first_time() - EventData::margin : lit.edges[bin - 1];
-  const double high = bin < lit.edges.size() ? lit.edges[bin] : data.last_time() + EventData::margin;
-  return std::max(0.0, high - low);
-}
-
 // Adds the simulation of `part`, `sign` times.
-void add(std::vector<BinCounts>& bins, std::span<const BinCounts> part, double sign) {
+void add(std::vector<BinOfData>& bins, std::span<const BinOfData> part, double sign) {
   for (std::size_t i = 0; i < bins.size(); ++i) {
     bins[i].simulation = std::max(0.0, bins[i].simulation + sign * part[i].simulation);
     bins[i].simulation_events += sign * part[i].simulation_events;
@@ -33,7 +26,7 @@ class PseudoModule {
   PseudoModule(const EventData& data, const ModuleData* lit, std::uint32_t index,
                const Evaluation& evaluation, double vertex_time)
       : events_(data.repeats()) {
-    const double begin = data.first_time() - EventData::margin, end = data.last_time() + EventData::margin;
+    const double begin = data.begin(), end = data.end();
     const double first = std::floor(begin / cell);
     // A module that was dark is dim: all times are one cell.
     const std::size_t cells =
@@ -49,9 +42,19 @@ class PseudoModule {
     }
     simulation_events_ = repeats;
     smooth();
-    const double noise = evaluation.noise_rate * 1e-9 * (end - begin) / double(cells);
+    const double noise = data.dark_noise(index) / double(cells);
     for (double& rate : rates_) rate = rate / repeats + noise;
     if (!lit) return;
+    saturated_at_ = lit->saturated ? lit->counts[0] : 0;
+    for (std::size_t b = 0; b < lit->counts.size(); ++b) {
+      if (!lit->left_out[b]) continue;
+      const double low = b == 0 ? begin : lit->edges[b - 1],
+                   high = b == lit->edges.size() ? end : lit->edges[b];
+      for (std::size_t i = 0; i < cells; ++i) {
+        const double centre = (first + double(i) + 0.5) * cell;
+        if (centre >= low && centre < high) rates_[i] = 0;
+      }
+    }
     for (const double edge : lit->edges)
       error_cuts_.push_back(static_cast<std::size_t>(edge / cell - first + 0.5));
   }
@@ -69,6 +72,10 @@ class PseudoModule {
       }
       data[i] = poisson(rates_[i] * error * events_, random);
       simulation[i] = poisson(rates_[i] * simulation_events_, random);
+    }
+    if (saturated_at_ > 0) {
+      const double simulated = std::max(1.0, std::accumulate(simulation.begin(), simulation.end(), 0.0));
+      return at_least({saturated_at_, events_, simulated, simulation_events_}, model_error).value;
     }
     std::vector<std::size_t> ends = bayesian_blocks(data);
     ends.push_back(rates_.size());
@@ -102,6 +109,7 @@ class PseudoModule {
   }
 
   double events_, simulation_events_ = 1;
+  double saturated_at_ = 0;    // counts; 0: not saturated
   std::vector<double> rates_;  // counts of one event in each cell
   std::vector<std::size_t>
       error_cuts_;  // cells at which another model error begins: the measured data's bins
@@ -109,30 +117,37 @@ class PseudoModule {
 
 }  // namespace
 
-std::vector<BinCounts> count_bins(const EventData& data, const LightSample& sample, double time,
-                                  double noise_rate) {
-  const double noise = noise_rate * 1e-9 * sample.repeats;  // counts of the simulation per ns
-  std::vector<BinCounts> bins;
+BinLikelihood BinOfData::likelihood(double model_error) const {
+  if (left_out) return {};
+  if (!saturated) return limited_simulation(*this, model_error);
+  BinCounts known = *this;  // an empty simulation is known to be below about one count
+  known.simulation = std::max(known.simulation, 1.0);
+  return at_least(known, model_error);
+}
+
+std::vector<BinOfData> count_bins(const EventData& data, const LightSample& sample, double time) {
+  std::vector<BinOfData> bins;
   bins.reserve(data.bins());
   for (const ModuleData& lit : data.lit()) {
     const float* from = sample.begin(lit.module);
     for (std::size_t b = 0; b < lit.counts.size(); ++b) {
       const float* to = sample.end(lit.module);
       if (b < lit.edges.size()) to = std::lower_bound(from, to, static_cast<float>(lit.edges[b] - time));
+      const double simulated = double(to - from) + sample.repeats * lit.noise[b];
       bins.push_back(
-          {lit.counts[b], data.repeats(), double(to - from) + noise * width(data, lit, b), sample.repeats});
+          {{lit.counts[b], data.repeats(), simulated, sample.repeats}, lit.saturated, lit.left_out[b]});
       from = to;
     }
   }
-  const double window = data.last_time() - data.first_time() + 2 * EventData::margin;
   for (const std::uint32_t dark : data.dark())
-    bins.push_back({0, data.repeats(), double(sample.count(dark)) + noise * window, sample.repeats});
+    bins.push_back({{0, data.repeats(), double(sample.count(dark)) + sample.repeats * data.dark_noise(dark),
+                     sample.repeats}});
   return bins;
 }
 
-double neg_llh(std::span<const BinCounts> bins, double model_error) {
+double neg_llh(std::span<const BinOfData> bins, double model_error) {
   double sum = 0;
-  for (const BinCounts& bin : bins) sum += limited_simulation(bin, model_error).value;
+  for (const BinOfData& bin : bins) sum += bin.likelihood(model_error).value;
   return sum;
 }
 
@@ -145,20 +160,19 @@ double jackknife_error(std::span<const double> values) {
 
 Evaluation evaluate_cascade(ExpectationModel& light, const EventData& data, const CascadeParameters& cascade,
                             double photons, double oversize, int repeats, std::uint64_t stream,
-                            double model_error, double noise_rate) {
+                            double model_error) {
   Evaluation result;
-  result.noise_rate = noise_rate;
-  std::vector<std::vector<BinCounts>> parts;
+  std::vector<std::vector<BinOfData>> parts;
   for (int i = 0; i < repeats; ++i) {
     result.samples.push_back(
         light.sample({cascade, photons, oversize, stream + static_cast<std::uint64_t>(i)}));
-    parts.push_back(count_bins(data, result.samples.back(), cascade.time, noise_rate));
+    parts.push_back(count_bins(data, result.samples.back(), cascade.time));
   }
-  std::vector<BinCounts> all = parts.front();
+  std::vector<BinOfData> all = parts.front();
   for (std::size_t i = 1; i < parts.size(); ++i) add(all, parts[i], 1);
   result.neg_llh = neg_llh(all, model_error);
   for (const auto& part : parts) {
-    std::vector<BinCounts> others = all;
+    std::vector<BinOfData> others = all;
     add(others, part, -1);
     result.leave_one_out.push_back(neg_llh(others, model_error));
   }

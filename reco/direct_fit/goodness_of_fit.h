@@ -10,25 +10,27 @@
 
 namespace floe {
 
+struct BinOfData : BinCounts {
+  bool saturated = false, left_out = false;
+  BinLikelihood likelihood(double model_error) const;
+};
 // Counts of all bins of `data`, and of the sample in them when the vertex time is `time`. The order is that
-// of Emulator::bins(). `noise_rate` of one module [1/s] adds to the simulation.
-std::vector<BinCounts> count_bins(const EventData& data, const LightSample& sample, double time,
-                                  double noise_rate = 0);
-double neg_llh(std::span<const BinCounts> bins, double model_error);
+// of Emulator::bins(). The data's dark noise adds to the simulation.
+std::vector<BinOfData> count_bins(const EventData& data, const LightSample& sample, double time);
+double neg_llh(std::span<const BinOfData> bins, double model_error);
 
 // A cascade measured with independent simulations of itself.
 struct Evaluation {
   std::vector<LightSample> samples;
   double neg_llh = 0;                 // of all simulations together
   std::vector<double> leave_one_out;  // with all but one
-  double noise_rate = 0;              // of a module [1/s]
 };
 // Error of a value from what it becomes without each of its parts: the jackknife.
 double jackknife_error(std::span<const double> leave_one_out);
 // `photons` for each of `repeats` simulations; streams begin at `stream`. At least two.
 Evaluation evaluate_cascade(ExpectationModel& light, const EventData& data, const CascadeParameters& cascade,
                             double photons, double oversize, int repeats, std::uint64_t stream,
-                            double model_error, double noise_rate);
+                            double model_error);
 
 struct PseudoLikelihood {
   double mean = 0, spread = 0;

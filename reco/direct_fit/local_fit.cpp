@@ -24,16 +24,14 @@ class BinCost : public ceres::CostFunction {
     double* jacobian = jacobians ? jacobians[0] : nullptr;
     for (std::size_t i = 0; i < values.size(); ++i) {
       const Emulator::Bin& bin = emulator_.bins()[i];
-      const BinLikelihood likelihood =
-          limited_simulation({bin.data, emulator_.repeats(), bin.effective_counts,
-                              bin.effective_counts / std::exp(values[i].log_mean)},
-                             emulator_.settings().model_error);
+      const BinLikelihood likelihood = emulator_.likelihood(bin, values[i].log_mean);
       if (!std::isfinite(likelihood.value)) return false;
       const double size = std::sqrt(2 * likelihood.value);
       residuals[i] = std::copysign(size, likelihood.slope);
       // d residual / d ln mu; near a perfect match both slope and residual vanish.
-      const double gain = size > 1e-6 * std::sqrt(likelihood.curvature) ? likelihood.slope / residuals[i]
-                                                                        : std::sqrt(likelihood.curvature);
+      const double gain = size == 0 && likelihood.curvature == 0          ? 0  // left out
+                          : size > 1e-6 * std::sqrt(likelihood.curvature) ? likelihood.slope / residuals[i]
+                                                                          : std::sqrt(likelihood.curvature);
       if (jacobian) Eigen::Map<Vector7>(jacobian + 7 * i) = gain * values[i].gradient;
     }
     return true;

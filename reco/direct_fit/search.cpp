@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <memory>
 
+#include "reco/direct_fit/arrival_bins.h"
+#include "reco/direct_fit/calibrated_score.h"
 #include "reco/direct_fit/design.h"
 
 namespace floe {
@@ -13,7 +15,11 @@ namespace {
 constexpr double scan_share = 0.15;  // of the progress bar
 constexpr double usual_rounds = 9;   // of a fit, for the progress bar
 constexpr double coarse_oversize = 12;
-constexpr double largest_pull = 1.2;             // of the last step: what the noise of simulations makes
+constexpr double charge_per_gev = 2;  // of a contained cascade, roughly [photoelectrons]
+constexpr int most_calibrations = 3;
+constexpr double least_training_step =
+    5;  // weights need not be exact, and are less noisy from a wide region [m]
+constexpr double least_training_turn = 8 * degree;
 constexpr double design_reach = 2.4;             // how far simulations are used, in steps from the origin
 constexpr double other_direction = 50 * degree;  // apart: worth following both
 
@@ -31,8 +37,9 @@ Search::Search(ExpectationModel& light, const EventData& data, const MeanIce& ic
                CascadeFit& result, const Progress& progress)
     : light_(light), data_(data), ice_(ice), options_(options), result_(result), progress_(progress) {}
 
-double Search::useful_photons(const CascadeParameters& cascade, double events, double least, double most) {
-  const double one = light_.photons_per_cascade(cascade, options_.oversize) * data_.repeats();
+double Search::useful_photons(const CascadeParameters& cascade, double oversize, double events, double least,
+                              double most) {
+  const double one = light_.photons_per_cascade(cascade, oversize) * data_.repeats();
   return options_.effort * std::clamp(events * one, least, most);
 }
 
@@ -57,50 +64,38 @@ void Search::simulate(const LocalFrame& frame, const Stage& stage) {
   }
 }
 
-std::vector<const Search::Simulation*> Search::near(const LocalFrame& frame, const Stage& stage) const {
-  std::vector<const Simulation*> result;
+std::vector<const LightSample*> Search::near(const LocalFrame& frame, const Stage& stage, Half half) const {
+  std::vector<const LightSample*> result;
   for (const auto& simulation : simulations_) {
-    const Vector7 local = frame.of(light_centre(simulation->sample.cascade, options_.kind));
+    const bool even = simulation->draw % 2 == 0;
+    if ((half == Half::even && !even) || (half == Half::odd && even)) continue;
+    const LightSample& sample = simulation->sample;
+    const Vector7 local = frame.of(light_centre(sample.cascade, options_.kind));
     const double distance = std::hypot(local.head<3>().norm() / stage.position_step,
                                        local.segment<2>(3).norm() / stage.direction_step);
-    if (simulation->sample.oversize == stage.oversize && distance < design_reach)
-      result.push_back(simulation.get());
+    if (sample.oversize == stage.oversize && distance < design_reach) result.push_back(&sample);
   }
   return result;
 }
 
-Emulator Search::emulate(const LightCentre& origin, const Stage& stage,
-                         std::span<const Simulation* const> simulations) {
+Emulator Search::emulate(const EventData& data, const LightCentre& origin, const Stage& stage,
+                         std::span<const LightSample* const> samples) const {
   EmulatorSettings settings;
   settings.kind = options_.kind;
   settings.model_error = options_.model_error;
-  settings.noise_rate = options_.noise_rate;
   settings.position_step = stage.position_step;
   settings.direction_step = stage.direction_step;
   settings.threads = options_.threads;
-  std::vector<const LightSample*> samples;
-  for (const Simulation* simulation : simulations) samples.push_back(&simulation->sample);
-  return {data_, ice_, origin, samples, settings};
+  return {data, ice_, origin, samples, settings};
 }
 
-// With two emulators from every other draw of the design; from all at once where that says nothing.
-Matrix7 Search::final_covariance(const LightCentre& light, const Stage& stage, const Matrix7& information) {
-  std::vector<const Simulation*> halves[2];
-  for (const Simulation* simulation : near(LocalFrame(light), stage))
-    halves[simulation->draw % 2].push_back(simulation);
-  if (!halves[0].empty() && !halves[1].empty()) {
-    const Matrix7 cross =
-        cross_information(emulate(light, stage, halves[0]), emulate(light, stage, halves[1]));
-    const Matrix7 covariance = covariance_of(cross);
-    if (covariance.allFinite()) return covariance;
-  }
-  return covariance_of(information);
-}
-
-Search::RoundEnd Search::round(const LightCentre& origin, const Stage& stage) {
+Search::RoundEnd Search::round(const LightCentre& origin, const Stage& stage, bool follow_light) {
   const LocalFrame frame(origin);
   simulate(frame, stage);
-  const Emulator emulator = emulate(origin, stage, near(frame, stage));
+  const std::vector<const LightSample*> samples = near(frame, stage);
+  const EventData data =
+      follow_light ? data_.with_edges(arrival_edges(data_, frame, samples, options_.kind)) : data_;
+  const Emulator emulator = emulate(data, origin, stage, samples);
 
   RoundEnd end;
   end.fit = fit_locally(emulator);
@@ -114,10 +109,10 @@ Search::RoundEnd Search::round(const LightCentre& origin, const Stage& stage) {
 }
 
 // Rounds of one stage until the step is smaller than the design, at most `most`.
-Search::RoundEnd Search::settle(LightCentre origin, Stage stage, int most) {
+Search::RoundEnd Search::settle(LightCentre origin, Stage stage, int most, bool follow_light) {
   RoundEnd end;
   for (int i = 0; i < most; ++i) {
-    end = round(origin, stage);
+    end = round(origin, stage, follow_light);
     origin = end.light;
     if (end.fit.step.head<3>().norm() < stage.position_step &&
         end.fit.step.segment<2>(3).norm() < stage.direction_step)
@@ -128,11 +123,12 @@ Search::RoundEnd Search::settle(LightCentre origin, Stage stage, int most) {
 
 LightCentre Search::best_of_two(const std::vector<SeedCandidate>& candidates) {
   const double oversize = std::max(coarse_oversize, options_.oversize);
-  const Stage stage{15, 25 * degree, oversize, 2e6 * options_.effort};
-  const RoundEnd first = settle(candidates.front().light, stage, 3);
+  const CascadeParameters best = cascade_of(candidates.front().light, options_.kind);
+  const Stage stage{15, 25 * degree, oversize, useful_photons(best, oversize, 1, 4e5, 2e6)};
+  const RoundEnd first = settle(candidates.front().light, stage, 3, false);
   for (const SeedCandidate& other : candidates) {
     if (other.light.direction.dot(candidates.front().light.direction) > std::cos(other_direction)) continue;
-    const RoundEnd second = settle(other.light, stage, 2);
+    const RoundEnd second = settle(other.light, stage, 2, false);
     return (second.fit.neg_llh < first.fit.neg_llh ? second : first).light;
   }
   return first.light;
@@ -140,35 +136,79 @@ LightCentre Search::best_of_two(const std::vector<SeedCandidate>& candidates) {
 
 Search::End Search::refine(const LightCentre& start) {
   const double coarse = std::max(coarse_oversize, options_.oversize);
-  const RoundEnd rough = settle(start, {8, 12 * degree, coarse, 4e6 * options_.effort}, 4);
+  const CascadeParameters begin = cascade_of(start, options_.kind);
+  const RoundEnd rough =
+      settle(start, {8, 12 * degree, coarse, useful_photons(begin, coarse, 2, 1e6, 4e6)}, 4, true);
 
   End end{rough.light, {}, false, {}};
   Stage stage;
-  Matrix7 information = rough.fit.information;
   Vector7 errors = rough.errors;
-  int fine_rounds = 0;
-  while (static_cast<int>(result_.rounds.size()) < options_.max_rounds || fine_rounds < 2) {
+  bool last_one_moved = true;
+  for (int fine = 0;
+       fine == 0 || (last_one_moved && static_cast<int>(result_.rounds.size()) < options_.max_rounds);
+       ++fine) {
     stage.position_step = std::clamp(2 * errors.head<3>().norm(), 3.0, 10.0);
     stage.direction_step = std::clamp(2 * errors.segment<2>(3).norm(), 4 * degree, 18 * degree);
     stage.oversize = options_.oversize;
-    stage.photons = useful_photons(cascade_of(end.light, options_.kind), 6, 4e6, 2e7);
-    const RoundEnd now = round(end.light, stage);
-    ++fine_rounds;
+    stage.photons = useful_photons(cascade_of(end.light, options_.kind), stage.oversize, 3, 2e6, 2e7);
+    const RoundEnd now = round(end.light, stage, true);
     end.light = now.light;
-    information = now.fit.information;
     errors = now.errors;
-    end.trouble.clear();
-    if (!errors.allFinite())
-      end.trouble = "the data do not determine all seven numbers";
-    else if (!now.within)
-      end.trouble = "the fit was still moving away after the last round";
-    else if (now.pull >= largest_pull)
-      end.trouble = "the last step was still larger than its error";
-    if (end.trouble.empty() && fine_rounds >= 2) break;
+    last_one_moved = !(now.within && now.fit.step.head<3>().norm() < stage.position_step &&
+                       now.fit.step.segment<2>(3).norm() < stage.direction_step);
   }
-  end.converged = end.trouble.empty();
-  end.covariance = final_covariance(end.light, stage, information);
+  if (!errors.allFinite()) {
+    end.trouble = "the data do not determine all seven numbers";
+    end.covariance.setConstant(std::numeric_limits<double>::infinity());
+    return end;
+  }
+  for (int i = 0; i < most_calibrations && !end.converged; ++i) {
+    stage.position_step = std::clamp(2 * errors.head<3>().norm(), 1.0, 10.0);
+    stage.direction_step = std::clamp(2 * errors.segment<2>(3).norm(), 1.5 * degree, 18 * degree);
+    stage.photons = useful_photons(cascade_of(end.light, options_.kind), stage.oversize, 6, 3e6, 4e7);
+    calibrate(end, stage);
+    if (!end.trouble.empty()) break;
+  }
+  if (!end.converged && end.trouble.empty())
+    end.trouble = "the fit was still moving away after the last round";
   return end;
+}
+
+// Two draws of the design, each measured with weights learnt from the other and all that came before.
+void Search::calibrate(End& end, const Stage& stage) {
+  const LocalFrame frame(end.light);
+  Stage wide = stage;
+  wide.position_step = std::max(stage.position_step, least_training_step);
+  wide.direction_step = std::max(stage.direction_step, least_training_turn);
+  std::vector<const LightSample*> fresh[2], all = near(frame, wide);
+  // The emulators' noise must be independent: they share no simulation.
+  std::vector<const LightSample*> training[2] = {near(frame, wide, Half::even), near(frame, wide, Half::odd)};
+  for (int fold = 0; fold < 2; ++fold) {
+    const std::size_t before = simulations_.size();
+    simulate(frame, stage);
+    for (std::size_t i = before; i < simulations_.size(); ++i) {
+      fresh[fold].push_back(&simulations_[i]->sample);
+      training[1 - fold].push_back(&simulations_[i]->sample);
+      all.push_back(&simulations_[i]->sample);
+    }
+  }
+  const EventData data = data_.with_edges(arrival_edges(data_, frame, all, options_.kind));
+  const ScoreFold folds[2] = {{emulate(data, end.light, stage, training[0]), fresh[0]},
+                              {emulate(data, end.light, stage, training[1]), fresh[1]}};
+  const ScoreSolution solution = solve_calibrated_score(data, folds);
+  if (!solution.converged) {
+    end.trouble = "the data do not determine all seven numbers";
+    end.covariance.setConstant(std::numeric_limits<double>::infinity());
+    return;
+  }
+  end.light = frame.at(solution.step);
+  end.covariance = solution.covariance;
+  const Vector7 errors = solution.covariance.diagonal().cwiseSqrt();
+  end.converged = solution.step.head<3>().norm() < design_reach * stage.position_step &&
+                  solution.step.segment<2>(3).norm() < design_reach * stage.direction_step;
+  result_.rounds.push_back({cascade_of(end.light, options_.kind), folds[0].emulator.neg_llh(solution.step),
+                            stage.position_step, stage.direction_step, stage.oversize,
+                            solution.step.cwiseAbs().cwiseQuotient(errors).maxCoeff()});
 }
 
 Search::End Search::from(const CascadeParameters& start) {
@@ -178,8 +218,10 @@ Search::End Search::from(const CascadeParameters& start) {
 Search::End Search::from_scratch(const PointSeed& point) {
   ScanOptions scan;
   scan.kind = options_.kind;
-  scan.photons *= options_.effort;
+  CascadeParameters rough;
+  rough.energy = std::max(10.0, data_.charge() / data_.repeats() / charge_per_gev);
   scan.oversize = std::max(15.0, options_.oversize);
+  scan.photons = useful_photons(rough, scan.oversize, 0.2, 3e4, 2e5);
   scan.first_stream = stream_;
   stream_ += static_cast<std::uint64_t>(scan.directions);
   const auto candidates = scan_directions(light_, data_, ice_, point, scan, [&](double done) {

@@ -30,8 +30,8 @@ class Search {
          CascadeFit& result, const Progress& progress);
 
   // Where the search ends. Coarse rounds far apart and with wide modules, fine ones at the wanted oversize;
-  // earlier simulations near by are used again. Ends when two fine rounds are done and the last step was
-  // no more than about its error in every parameter.
+  // earlier simulations near by are used again. When a fine round has moved no more than its design is
+  // wide, the calibrated score (reco/direct_fit/calibrated_score.h) makes the last step.
   struct End {
     LightCentre light;
     Matrix7 covariance;  // of the local numbers around `light`
@@ -41,8 +41,9 @@ class Search {
   End from_scratch(const PointSeed& point);
   End from(const CascadeParameters& start);
 
-  // Photons of a simulation in which the event is about as bright as in the data.
-  double useful_photons(const CascadeParameters& cascade, double events, double least, double most);
+  // Photons of `events` repetitions of the cascade with modules of that oversize, but not less or more.
+  double useful_photons(const CascadeParameters& cascade, double oversize, double events, double least,
+                        double most);
 
  private:
   struct RoundEnd {
@@ -52,18 +53,18 @@ class Search {
     double pull;  // largest step in units of its error
     bool within;  // inside the region that the emulator is trusted with
   };
-  RoundEnd round(const LightCentre& origin, const Stage& stage);
+  // `follow_light`: bins of the expected light, which needs to be roughly right, instead of the data's
+  // blocks.
+  RoundEnd round(const LightCentre& origin, const Stage& stage, bool follow_light);
   void simulate(const LocalFrame& frame, const Stage& stage);
-  struct Simulation {
-    LightSample sample;
-    std::uint64_t draw;  // of the design: simulations of one draw belong together
-  };
-  std::vector<const Simulation*> near(const LocalFrame& frame, const Stage& stage) const;
-  Emulator emulate(const LightCentre& origin, const Stage& stage,
-                   std::span<const Simulation* const> simulations);
-  Matrix7 final_covariance(const LightCentre& light, const Stage& stage, const Matrix7& information);
-  RoundEnd settle(LightCentre origin, Stage stage, int most);
+  enum class Half { both, even, odd };  // of the designs' draws
+  std::vector<const LightSample*> near(const LocalFrame& frame, const Stage& stage,
+                                       Half half = Half::both) const;
+  Emulator emulate(const EventData& data, const LightCentre& origin, const Stage& stage,
+                   std::span<const LightSample* const> samples) const;
+  RoundEnd settle(LightCentre origin, Stage stage, int most, bool follow_light);
   End refine(const LightCentre& light);
+  void calibrate(End& end, const Stage& stage);
   LightCentre best_of_two(const std::vector<SeedCandidate>& candidates);
   void report(double within_round, const std::string& what);
 
@@ -73,6 +74,10 @@ class Search {
   const FitOptions& options_;
   CascadeFit& result_;
   const Progress& progress_;
+  struct Simulation {
+    LightSample sample;
+    std::uint64_t draw;  // of the design
+  };
   std::vector<std::unique_ptr<Simulation>> simulations_;
   std::uint64_t stream_ = 0, draws_ = 0;
 };

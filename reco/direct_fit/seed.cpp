@@ -95,14 +95,14 @@ class CoarseComparison {
   };
   // `time`: of the vertex. `log_light`: where the search for the brightness begins, relative to the sample.
   Best at(double time, double log_light) const {
-    const std::vector<BinCounts> bins = count_bins(data_, sample_, time);
+    const std::vector<BinOfData> bins = count_bins(data_, sample_, time);
     Best best{0, log_light};
     for (int iteration = 0; iteration < 20; ++iteration) {
       double slope = 0, curvature = 0;
       best.neg_llh = 0;
-      for (BinCounts bin : bins) {
+      for (BinOfData bin : bins) {
         bin.simulation_events *= std::exp(-best.log_light);
-        const BinLikelihood value = limited_simulation(bin, model_error_);
+        const BinLikelihood value = bin.likelihood(model_error_);
         best.neg_llh += value.value;
         slope += value.slope;
         curvature += value.curvature;

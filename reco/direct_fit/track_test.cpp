@@ -21,14 +21,17 @@ TrackTest test_for_track(const EventData& data, const PointSeed& point) {
   const auto& modules = data.detector().modules();
   Vec3 mean_place = Vec3::Zero();
   double mean_time = 0;
-  const double n = double(data.lit().size());
-  for (const ModuleData& lit : data.lit()) {
+  const std::vector<std::size_t> hit = data.brightest(data.lit().size());
+  const double n = double(hit.size());
+  for (const std::size_t i : hit) {
+    const ModuleData& lit = data.lit()[i];
     mean_place += modules[lit.module].position / n;
     mean_time += lit.times.front() / n;
   }
   Vec3 covariance = Vec3::Zero();
   double variance = 0;
-  for (const ModuleData& lit : data.lit()) {
+  for (const std::size_t i : hit) {
+    const ModuleData& lit = data.lit()[i];
     const double t = lit.times.front() - mean_time;
     covariance += (modules[lit.module].position - mean_place) * t;
     variance += t * t;
@@ -40,7 +43,8 @@ TrackTest test_for_track(const EventData& data, const PointSeed& point) {
   if (test.speed <= 0) return test;
 
   double along = 0, across = 0, track = 0, cascade = 0, cascade_mean = 0;
-  for (const ModuleData& lit : data.lit()) {
+  for (const std::size_t i : hit) {
+    const ModuleData& lit = data.lit()[i];
     const Vec3 place = modules[lit.module].position - mean_place;
     const double l = place.dot(velocity) / test.speed, t = lit.times.front() - mean_time;
     along += l * l;

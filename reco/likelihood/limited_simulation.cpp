@@ -41,7 +41,46 @@ double shared_excess(const BinCounts& c, double sigma) {
   return w;
 }
 
+// Continued fraction of the incomplete beta function (Abramowitz and Stegun 26.5.8), by Lentz' method;
+// converges fast for x < (a + 1)/(a + b + 2).
+double beta_fraction(double a, double b, double x) {
+  constexpr double tiny = 1e-300;
+  const auto safe = [](double value) { return std::abs(value) < tiny ? tiny : value; };
+  double c = 1, d = 1 / safe(1 - (a + b) * x / (a + 1)), result = d;
+  for (int m = 1; m < 100000; ++m) {
+    const double even = m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m));
+    d = 1 / safe(1 + even * d), c = safe(1 + even / c);
+    result *= d * c;
+    const double odd = -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1));
+    d = 1 / safe(1 + odd * d), c = safe(1 + odd / c);
+    result *= d * c;
+    if (std::abs(d * c - 1) < 1e-13) break;
+  }
+  return result;
+}
+
 }  // namespace
+
+BinLikelihood at_least(const BinCounts& c, double sigma) {
+  assert(c.data > 0 && c.simulation > 0 && c.data_events > 0 && c.simulation_events > 0 && sigma >= 0);
+  const double mu = c.data_events * c.simulation / c.simulation_events;
+  const double a = c.data, b = 1 / std::max(sigma * sigma + 1 / c.simulation, 1e-7);
+  const double x = mu / (mu + b), y = b / (mu + b);
+  const double log_density =  // of x^a y^b / B(a, b)
+      a * std::log(x) + b * std::log(y) + std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b);
+  double log_probability;
+  if (x < (a + 1) / (a + b + 2))
+    log_probability = log_density + std::log(beta_fraction(a, b, x) / a);
+  else
+    log_probability = std::log1p(-std::min(std::exp(log_density) * beta_fraction(b, a, y) / b, 1.0));
+  BinLikelihood result;
+  result.data_rate = result.simulation_rate = c.simulation / c.simulation_events;
+  result.value = std::max(0.0, -log_probability);
+  const double hazard = std::exp(log_density - log_probability);  // d ln P / d ln mu
+  result.slope = -hazard;
+  result.curvature = std::max(0.0, hazard * (hazard - a * y + b * x));
+  return result;
+}
 
 BinLikelihood limited_simulation(const BinCounts& c, double sigma) {
   assert(c.data >= 0 && c.simulation >= 0 && c.data_events > 0 && c.simulation_events > 0 && sigma >= 0);

@@ -31,6 +31,13 @@ struct BinLikelihood {
 // sides everything is 0. Needs sigma >= 0.
 BinLikelihood limited_simulation(const BinCounts& counts, double sigma);
 
+// The same for a bin of which only is known that it holds `data` counts or more (a saturated module):
+//   -ln P(N >= d | mu),
+// N Poisson about a gamma distributed rate of mean mu = n_d s/n_s and relative variance
+// v = sigma^2 + 1/s, which makes N negative binomial and P the regularised incomplete beta function
+// I_x(d, 1/v), x = v mu/(1 + v mu). data_rate and simulation_rate are both s/n_s. Needs data > 0, s > 0.
+BinLikelihood at_least(const BinCounts& counts, double sigma);
+
 // The weight of one bin in the Fisher information of the logarithm of its expectation `counts`, known
 // as well as `effective_simulation` counts allow: 1/(sigma^2 + 1/counts + 1/effective_simulation).
 double expected_curvature(double counts, double effective_simulation, double sigma);

@@ -107,7 +107,7 @@ TEST(CascadeFit, RefusesOptionsOutOfRange) {
   const EventData data(*light.model().detector, event);
   for (const auto spoil :
        {+[](FitOptions& o) { o.oversize = 0.5; }, +[](FitOptions& o) { o.model_error = -1; },
-        +[](FitOptions& o) { o.effort = 0; }, +[](FitOptions& o) { o.noise_rate = -3; }}) {
+        +[](FitOptions& o) { o.effort = 0; }, +[](FitOptions& o) { o.max_rounds = 0; }}) {
     FitOptions options = quick();
     spoil(options);
     EXPECT_THROW(fit_cascade(light, data, options), UsageError);

@@ -70,8 +70,10 @@ TEST_F(EmulatorTest, PredictsTheLightOfOtherCascades) {
 
 TEST_F(EmulatorTest, GradientsAreRight) {
   for (const double noise : {0.0, 2e4}) {
-    settings_.noise_rate = noise;
-    const Emulator emulator(data_, MeanIce({30, 100}), frame_.origin(), pointers_, settings_);
+    DataSelection selection;
+    selection.noise_rate = noise;
+    const EventData data(*light_.model().detector, event_, selection);
+    const Emulator emulator(data, MeanIce({30, 100}), frame_.origin(), pointers_, settings_);
     const auto cost = make_cost(emulator);
     ceres::NumericDiffOptions options;
     options.ridders_relative_initial_step_size = 1e-4;

@@ -1,0 +1,219 @@
+// floe study: can the fit's results and errors be believed?
+#include <fmt/format.h>
+
+#include <map>
+#include <memory>
+
+#include "apps/commands.h"
+#include "apps/common_options.h"
+#include "apps/model_json.h"
+#include "apps/option_values.h"
+#include "apps/parallel_events.h"
+#include "apps/planned_output.h"
+#include "apps/progress_bar.h"
+#include "apps/row_journal.h"
+#include "apps/study_rows.h"
+#include "data/base/error.h"
+#include "reco/study/summary.h"
+
+namespace floe {
+namespace {
+
+struct StudyCommand {
+  ModelRequest model;
+  std::vector<std::string> groups{"1e4,40,10", "1e5,40,20", "1e6,10,40"};
+  std::optional<std::string> fit_ice;
+  std::vector<std::string> fit_without;
+  double effort = 1;
+  SimulationSettings run;
+  std::optional<std::string> rows, picture;
+  OutputOptions output;
+};
+
+StudyGroup group_of(const std::string& text) {
+  const std::vector<std::string> parts = split_list(text);
+  if (parts.size() != 3)
+    throw UsageError(fmt::format("--group: found \"{}\"; expected ENERGY,EVENTS,OVERSIZE", text));
+  return {parse_option_number("--group", parts[0], {1, 1e9}),
+          static_cast<int>(parse_option_integer("--group", parts[1], 0, 100000)),
+          parse_option_number("--group", parts[2], {1, 100})};
+}
+
+StudySettings settings_of(const StudyCommand& command) {
+  StudySettings settings;
+  for (const std::string& text : command.groups) settings.groups.push_back(group_of(text));
+  for (std::size_t i = 0; i < settings.groups.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (settings.groups[i].energy == settings.groups[k].energy)
+        throw UsageError(fmt::format("--group: {:g} GeV is given twice", settings.groups[i].energy));
+  settings.truth = load_model(command.model);
+  if (command.fit_ice || !command.fit_without.empty()) {
+    ModelRequest other = command.model;
+    if (command.fit_ice) other.ice = *command.fit_ice, other.ice_version.reset();
+    other.without.insert(other.without.end(), command.fit_without.begin(), command.fit_without.end());
+    settings.other = load_model(other);
+  }
+  settings.seed = command.run.seed;
+  settings.fit.model_error = 0;  // the simulated data have none
+  settings.fit.effort = command.effort;
+  return settings;
+}
+
+Json heading_of(const StudySettings& settings) {
+  Json oversize = Json::object();
+  for (const StudyGroup& group : settings.groups)
+    oversize[fmt::format("{:g}", group.energy)] = group.oversize;
+  return {{"journal", "floe study 1"},
+          {"version", FLOE_VERSION},
+          {"seed", settings.seed},
+          {"effort", settings.fit.effort},
+          {"oversize", oversize},
+          {"ice", settings.truth.ice->hash()},
+          {"detector", settings.truth.detector->hash()},
+          {"fit_ice", settings.other ? Json(settings.other->ice->hash()) : Json()}};
+}
+
+struct Task {
+  StudyGroup group;
+  int index;
+};
+
+std::vector<StudyRow> run_events(const StudyCommand& command, const StudySettings& settings,
+                                 RowJournal* journal) {
+  std::map<std::pair<double, int>, StudyRow> done;
+  if (journal)
+    for (const Json& json : journal->rows()) {
+      const StudyRow row = study_row_of(json);
+      done[{row.energy, row.index}] = row;
+    }
+  std::vector<Task> tasks;
+  for (const StudyGroup& group : settings.groups)
+    for (int index = 0; index < group.events; ++index)
+      if (!done.contains({group.energy, index})) tasks.push_back({group, index});
+
+  ProgressBar bar(command.output.quiet);
+  const Progress progress = bar.callback();
+  std::mutex mutex;
+  std::size_t finished = 0;
+  for_each_event(tasks.size(), command.run.threads, [&](std::size_t i, int threads) {
+    const StudyRow row = study_event(settings, tasks[i].group, tasks[i].index, threads);
+    if (journal) journal->append(to_json(row));
+    const std::lock_guard lock(mutex);
+    done[{row.energy, row.index}] = row;
+    ++finished;
+    if (progress)
+      progress(double(finished) / double(tasks.size()),
+               fmt::format("{} of {} events", finished, tasks.size()));
+  });
+
+  std::vector<StudyRow> rows;  // those that were asked for, in order
+  for (const StudyGroup& group : settings.groups)
+    for (int index = 0; index < group.events; ++index) rows.push_back(done.at({group.energy, index}));
+  return rows;
+}
+
+Json table_json(const StudyTable& table) {
+  Json lines = Json::array();
+  for (const StudyLine& line : table.lines)
+    lines.push_back({{"name", line.name},
+                     {"unit", line.unit},
+                     {"count", line.count},
+                     {"bias", line.bias},
+                     {"bias_error", line.bias_error},
+                     {"median_error", line.median_error},
+                     {"median_bound", line.median_bound},
+                     {"pull_mean", line.pull_mean},
+                     {"pull_width", line.pull_width},
+                     {"pull_width_error", line.pull_width_error},
+                     {"coverage", line.coverage},
+                     {"coverage_error", line.coverage_error}});
+  return {{"title", table.title},
+          {"events", table.events},
+          {"fitted", table.fitted},
+          {"lines", lines},
+          {"failures", table.failures}};
+}
+
+std::string bias_words(const StudyBias& bias) {
+  return fmt::format(
+      "Fitted with the other model: {} events\n"
+      "  angle from the truth, median: {:.2f} deg (with the true model {:.2f} deg)\n"
+      "  energy, mean of ln(fit/truth): {:+.4f} +- {:.4f} (with the true model {:+.4f} +- {:.4f})\n"
+      "  -ln L larger by {:.1f} +- {:.1f} an event; in units of its simulation error {:.1f} (median), {:.1f} "
+      "(least)\n",
+      bias.events, bias.median_angle / degree, bias.median_angle_truth / degree, bias.mean_log_energy,
+      bias.mean_log_energy_error, bias.mean_log_energy_truth, bias.mean_log_energy_truth_error,
+      bias.mean_delta, bias.mean_delta_error, bias.median_significance, bias.least_significance);
+}
+
+void run_study(const StudyCommand& command) {
+  if (command.picture && !command.picture->ends_with(".svg"))
+    throw UsageError(
+        fmt::format("--picture: found \"{}\"; expected a name that ends in .svg", *command.picture));
+  const StudySettings settings = settings_of(command);
+  PlannedOutput json(command.output.json), picture(command.picture);
+  std::unique_ptr<RowJournal> journal;
+  if (command.rows)
+    journal = std::make_unique<RowJournal>(*command.rows, heading_of(settings), RowJournal::Mismatch::error);
+  const std::vector<StudyRow> rows = run_events(command, settings, journal.get());
+
+  Json tables = Json::array();
+  std::string text;
+  const auto add_table = [&](std::span<const StudyRow> part, const std::string& title) {
+    const StudyTable table = summarise(part, title);
+    tables.push_back(table_json(table));
+    text += text_of(table);
+  };
+  std::size_t first = 0;
+  for (const StudyGroup& group : settings.groups) {
+    const auto count = static_cast<std::size_t>(group.events);
+    add_table(std::span(rows).subspan(first, count),
+              fmt::format("{:g} GeV, oversize {:g}", group.energy, group.oversize));
+    first += count;
+  }
+  if (settings.groups.size() > 1) add_table(rows, "all energies");
+  if (settings.other) text += bias_words(summarise_bias(rows));
+  json.write(json_text({{"model", to_json(settings.truth)}, {"seed", settings.seed}, {"tables", tables}}));
+  if (command.picture)
+    picture.write(
+        figure_of_study(rows, fmt::format("{} cascades in {}", rows.size(), model_label(command.model))));
+  json.commit();
+  picture.commit();
+  if (!command.output.quiet) fmt::print("{}", text);
+}
+
+}  // namespace
+
+void add_study(CLI::App& floe) {
+  CLI::App& app = *floe.add_subcommand("study", "Simulate and fit cascades: bias, errors, pulls, coverage");
+  const auto command = std::make_shared<StudyCommand>();
+  app.add_option("--group", command->groups,
+                 "Contained cascades: energy [GeV], number, oversize of data and fit; may be repeated")
+      ->type_name("ENERGY,EVENTS,OVERSIZE")
+      ->allow_extra_args(false)
+      ->capture_default_str();
+  add_model_options(app, command->model);
+  app.add_option("--fit-ice", command->fit_ice, "Fit with this ice, too")->type_name("DIR|south-pole");
+  app.add_option("--fit-without", command->fit_without, "Fit without these effects, too; floe info --help")
+      ->type_name("EFFECT,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  add_number(app, "--effort", "X", {0, 1000, true}, "Multiplies the number of simulated photons",
+             command->effort);
+  add_run_options(app, command->run);
+  app.add_option("--rows", command->rows, "Keeps every event; the same command goes on where it was stopped")
+      ->type_name("FILE.jsonl");
+  app.add_option("-o,--picture", command->picture, "Pulls and errors of all events")->type_name("FILE.svg");
+  add_output_options(app, command->output);
+  app.footer(
+      "Examples:\n"
+      "  floe study --group 1000,4,20 --rows quick.jsonl --picture quick.svg\n"
+      "  floe study --group 1e4,40,10 --group 1e5,40,20 --group 1e6,10,40 --rows study.jsonl\n"
+      "  floe study --group 1e4,5,20 --fit-without birefringence --rows bias.jsonl\n"
+      "Positions and directions are drawn at random, at least 50 m inside the detector. Fits begin at the "
+      "data, "
+      "without the truth.");
+  app.callback([command] { run_study(*command); });
+}
+
+}  // namespace floe

@@ -1,0 +1,67 @@
+#include "reco/direct_fit/information_bound.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "reco/direct_fit/arrival_bins.h"
+#include "reco/direct_fit/calibrated_score.h"
+#include "reco/direct_fit/design.h"
+#include "reco/direct_fit/expectation_model.h"
+
+namespace floe {
+namespace {
+
+constexpr double position_step = 5, direction_step = 8 * degree;
+
+using Samples = std::vector<std::unique_ptr<LightSample>>;
+
+std::vector<const LightSample*> pointers(const Samples& samples) {
+  std::vector<const LightSample*> result;
+  for (const auto& sample : samples) result.push_back(sample.get());
+  return result;
+}
+
+Samples simulate(ExpectationModel& light, const LocalFrame& frame, const FitOptions& options,
+                 std::uint64_t draw) {
+  const CascadeParameters cascade = cascade_of(frame.origin(), options.kind);
+  const double one = light.photons_per_cascade(cascade, options.oversize);
+  const double photons = options.effort * std::clamp(6 * one, 2e6, 2e7);
+  const auto design = simplex_design(options.seed, draw);
+  Samples samples;
+  for (std::size_t i = 0; i < design.size(); ++i) {
+    Vector7 local = Vector7::Zero();
+    local.head<3>() = position_step * design[i].head<3>();
+    local.segment<2>(3) = direction_step * design[i].tail<2>();
+    samples.push_back(std::make_unique<LightSample>(
+        light.sample({cascade_of(frame.at(local), options.kind), photons / double(design.size()),
+                      options.oversize, 100 * draw + i})));
+  }
+  return samples;
+}
+
+}  // namespace
+
+Matrix7 cramer_rao_bound(ExpectationModel& light, const CascadeParameters& truth, const Event& event,
+                         const FitOptions& options) {
+  const LightCentre centre = light_centre(truth, options.kind);
+  const LocalFrame frame(centre);
+  const Samples halves[2] = {simulate(light, frame, options, 1), simulate(light, frame, options, 2)};
+  std::vector<const LightSample*> fresh[2] = {pointers(halves[0]), pointers(halves[1])}, all = fresh[0];
+  all.insert(all.end(), fresh[1].begin(), fresh[1].end());
+
+  const EventData measured(*light.model().detector, event, options.selection);
+  const EventData data = measured.with_edges(arrival_edges(measured, frame, all, options.kind));
+  const MeanIce ice(*light.model().ice);
+  EmulatorSettings settings;
+  settings.kind = options.kind;
+  settings.model_error = 0;
+  settings.position_step = position_step;
+  settings.direction_step = direction_step;
+  settings.threads = options.threads;
+  const ScoreFold folds[2] = {{Emulator(data, ice, centre, fresh[1], settings), fresh[0]},
+                              {Emulator(data, ice, centre, fresh[0], settings), fresh[1]}};
+  const Matrix7 jacobian = frame.jacobian(Vector7::Zero(), options.kind);
+  return jacobian * cramer_rao_bound(data, folds) * jacobian.transpose();
+}
+
+}  // namespace floe

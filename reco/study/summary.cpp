@@ -1,0 +1,212 @@
+#include "reco/study/summary.h"
+
+#include <fmt/format.h>
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+namespace floe {
+namespace {
+
+constexpr double share = 0.6827;
+constexpr double two_dimensions = 2.2958, three_dimensions = 3.5267;  // chi-square of `share`
+
+double median(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
+}
+
+// Of the length of a Gaussian vector of this covariance, from its principal axes: the square is a sum of
+// scaled chi-squares, whose median Wilson and Hilferty's cube root gives to 1%.
+double median_length(const Eigen::MatrixXd& covariance) {
+  const double mean = covariance.trace(), variance = 2 * (covariance * covariance).trace();
+  const double freedom = 2 * mean * mean / variance;
+  return std::sqrt(mean * std::pow(1 - 2 / (9 * freedom), 3));
+}
+
+class LineBuilder {
+ public:
+  LineBuilder(const std::string& name, const std::string& unit, double scale) : scale_(scale) {
+    line_.name = name;
+    line_.unit = unit;
+  }
+  void add_signed(double difference, double error) {
+    differences_.push_back(scale_ * difference);
+    add_pull(difference / error);
+  }
+  void add_pull(double pull) {
+    pulls_.push_back(pull);
+    inside_ += std::abs(pull) < 1;
+  }
+  void add_length(double length, bool inside) {
+    lengths_.push_back(scale_ * length);
+    inside_ += inside;
+  }
+  void add_bound(double median_error) { bounds_.push_back(scale_ * median_error); }
+  void add_absolute(double value) { lengths_.push_back(scale_ * value); }
+
+  StudyLine line() const {
+    StudyLine result = line_;
+    const std::size_t n = std::max(pulls_.size(), lengths_.size());
+    result.count = n;
+    if (n == 0) return result;
+    const auto moments = [](const std::vector<double>& values, double& mean, double& spread) {
+      if (values.empty()) return;
+      mean = std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
+      double square = 0;
+      for (const double value : values) square += (value - mean) * (value - mean);
+      spread = values.size() > 1 ? std::sqrt(square / double(values.size() - 1)) : 0;
+    };
+    double spread = 0;
+    moments(differences_, result.bias, spread);
+    result.bias_error = spread / std::sqrt(double(n));
+    moments(pulls_, result.pull_mean, result.pull_width);
+    result.pull_width_error = result.pull_width / std::sqrt(2.0 * double(n));
+    result.median_error = median(lengths_);
+    result.median_bound = median(bounds_);
+    result.coverage = double(inside_) / double(n);
+    result.coverage_error = std::sqrt(share * (1 - share) / double(n));
+    return result;
+  }
+
+ private:
+  StudyLine line_;
+  double scale_;
+  std::vector<double> differences_, pulls_, lengths_, bounds_;
+  std::size_t inside_ = 0;
+};
+
+bool is_fitted(const StudyFit& fit) {
+  return (fit.status == FitStatus::ok || fit.status == FitStatus::track_like) && fit.covariance.allFinite();
+}
+
+}  // namespace
+
+StudyResiduals residuals_of(const StudyRow& row, const StudyFit& fit) {
+  const double sine = std::sin(fit.cascade.zenith);
+  StudyResiduals result;
+  // The way from the true to the fitted direction, on the tangent plane at the fitted one.
+  const Vec3 found = unit_vector(fit.cascade.zenith, fit.cascade.azimuth);
+  const Vec3 truth = unit_vector(row.truth.zenith, row.truth.azimuth);
+  const Vec3 by_azimuth(-std::sin(fit.cascade.azimuth), std::cos(fit.cascade.azimuth), 0);
+  const Vec3 by_zenith = by_azimuth.cross(found);
+  const double angle = angle_between(fit.cascade, row.truth), across = found.cross(truth).norm();
+  const double stretch = across > 0 ? angle / across : 1;
+  result.difference << fit.cascade.position - row.truth.position, fit.cascade.time - row.truth.time,
+      -stretch * truth.dot(by_zenith), -stretch * truth.dot(by_azimuth),
+      fit.cascade.energy / row.truth.energy - 1;
+  Vector7 unit = Vector7::Ones();
+  unit(5) = sine;
+  unit(6) = 1 / fit.cascade.energy;
+  result.covariance = unit.asDiagonal() * fit.covariance * unit.asDiagonal();
+  unit(5) = std::sin(row.truth.zenith);
+  unit(6) = 1 / row.truth.energy;
+  result.bound = unit.asDiagonal() * row.bound * unit.asDiagonal();
+  return result;
+}
+
+StudyTable summarise(std::span<const StudyRow> rows, const std::string& title) {
+  constexpr std::array<const char*, 7> names{"x", "y", "z", "time", "zenith", "azimuth", "energy"};
+  constexpr std::array<const char*, 7> units{"m", "m", "m", "ns", "deg", "deg", "%"};
+  constexpr std::array<double, 7> scales{1, 1, 1, 1, 1 / degree, 1 / degree, 100};
+  constexpr double gaussian_median = 0.67449;
+  std::vector<LineBuilder> lines;
+  for (std::size_t i = 0; i < 7; ++i) lines.emplace_back(names[i], units[i], scales[i]);
+  LineBuilder position("position", "m", 1), direction("direction", "deg", 1 / degree),
+      pooled("pooled", "", 1);
+  StudyTable table;
+  table.title = title;
+  table.events = rows.size();
+  for (const StudyRow& row : rows) {
+    if (!is_fitted(row.fit)) {
+      table.failures.push_back(fmt::format("{:g} GeV event {}: {}: {}", row.energy, row.index,
+                                           name_of(row.fit.status), row.fit.reason));
+      continue;
+    }
+    ++table.fitted;
+    const StudyResiduals r = residuals_of(row, row.fit);
+    for (int i = 0; i < 7; ++i) {
+      LineBuilder& line = lines[static_cast<std::size_t>(i)];
+      const double error = std::sqrt(r.covariance(i, i));
+      line.add_signed(r.difference(i), error);
+      line.add_absolute(std::abs(r.difference(i)));
+      pooled.add_pull(r.difference(i) / error);
+      if (row.bound.allFinite()) line.add_bound(gaussian_median * std::sqrt(r.bound(i, i)));
+    }
+    const Eigen::Matrix3d c3 = r.covariance.topLeftCorner<3, 3>();
+    const Eigen::Matrix2d c2 = r.covariance.block<2, 2>(4, 4);
+    const Vec3 d3 = r.difference.head<3>();
+    const Eigen::Vector2d d2 = r.difference.segment<2>(4);
+    position.add_length(d3.norm(), d3.dot(c3.ldlt().solve(d3)) < three_dimensions);
+    direction.add_length(d2.norm(), d2.dot(c2.ldlt().solve(d2)) < two_dimensions);
+    if (row.bound.allFinite()) {
+      position.add_bound(median_length(r.bound.topLeftCorner<3, 3>()));
+      direction.add_bound(median_length(r.bound.block<2, 2>(4, 4)));
+    }
+  }
+  for (const LineBuilder& line : lines) table.lines.push_back(line.line());
+  for (const LineBuilder* line : {&position, &direction, &pooled}) table.lines.push_back(line->line());
+  return table;
+}
+
+StudyBias summarise_bias(std::span<const StudyRow> rows) {
+  StudyBias bias;
+  std::vector<double> angles, angles_truth, energies, energies_truth, deltas, significances;
+  for (const StudyRow& row : rows) {
+    if (!row.other || !is_fitted(row.fit) || !is_fitted(*row.other)) continue;
+    ++bias.events;
+    angles.push_back(angle_between(row.other->cascade, row.truth));
+    angles_truth.push_back(angle_between(row.fit.cascade, row.truth));
+    energies.push_back(std::log(row.other->cascade.energy / row.truth.energy));
+    energies_truth.push_back(std::log(row.fit.cascade.energy / row.truth.energy));
+    deltas.push_back(row.delta_neg_llh);
+    significances.push_back(row.delta_neg_llh / row.delta_neg_llh_error);
+  }
+  if (bias.events == 0) return bias;
+  const auto mean_with_error = [](const std::vector<double>& values, double& mean, double& error) {
+    const double n = double(values.size());
+    mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+    double square = 0;
+    for (const double value : values) square += (value - mean) * (value - mean);
+    error = n > 1 ? std::sqrt(square / (n * (n - 1))) : std::numeric_limits<double>::quiet_NaN();
+  };
+  bias.median_angle = median(angles);
+  bias.median_angle_truth = median(angles_truth);
+  mean_with_error(energies, bias.mean_log_energy, bias.mean_log_energy_error);
+  mean_with_error(energies_truth, bias.mean_log_energy_truth, bias.mean_log_energy_truth_error);
+  mean_with_error(deltas, bias.mean_delta, bias.mean_delta_error);
+  bias.least_significance = *std::min_element(significances.begin(), significances.end());
+  bias.median_significance = median(significances);
+  return bias;
+}
+
+std::string text_of(const StudyTable& table) {
+  std::string text = fmt::format("{}: {} of {} events fitted\n", table.title, table.fitted, table.events);
+  text += fmt::format("  {:<10} {:>4}  {:>17}  {:>8}  {:>8}  {:>5}  {:>6}  {:>13}  {:>13}\n", "", "", "bias",
+                      "median", "bound", "ratio", "pull", "pull width", "in 68%");
+  for (const StudyLine& line : table.lines) {
+    const bool pulls = line.pull_width > 0, errors = line.median_error > 0;
+    text += fmt::format("  {:<10} {:>4}", line.name, line.unit);
+    text += line.bias_error > 0 ? fmt::format("  {:>8.3f} +- {:<5.3f}", line.bias, line.bias_error)
+                                : fmt::format("  {:>17}", "");
+    text += errors ? fmt::format("  {:>8.3f}  {:>8.3f}  {:>5.2f}", line.median_error, line.median_bound,
+                                 line.median_error / line.median_bound)
+                   : fmt::format("  {:>8}  {:>8}  {:>5}", "", "", "");
+    text += pulls ? fmt::format("  {:>6.2f}  {:>5.2f} +- {:<4.2f}", line.pull_mean, line.pull_width,
+                                line.pull_width_error)
+                  : fmt::format("  {:>6}  {:>13}", "", "");
+    text += fmt::format("  {:>5.1f} +- {:<4.1f}\n", 100 * line.coverage, 100 * line.coverage_error);
+  }
+  for (const std::string& failure : table.failures) text += "  not fitted: " + failure + "\n";
+  return text;
+}
+
+}  // namespace floe

@@ -1,0 +1,60 @@
+// What a calibration study says: tables of bias, errors, pulls and coverage.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reco/study/study.h"
+
+namespace floe {
+
+// Differences of one fit from the truth, in the numbers that a study judges: x, y, z [m], time [ns],
+// direction along rising zenith and along rising azimuth (angles on the sphere [rad]), and energy (relative).
+struct StudyResiduals {
+  Vector7 difference;  // fit - truth
+  Matrix7 covariance;  // the fit's
+  Matrix7 bound;       // Cramer-Rao
+};
+StudyResiduals residuals_of(const StudyRow& row, const StudyFit& fit);
+
+// One parameter, or several taken together, over a number of events.
+struct StudyLine {
+  std::string name, unit;
+  std::size_t count = 0;            // of values: events, or events x parameters when pooled
+  double bias = 0, bias_error = 0;  // mean and its error
+  double median_error = 0;          // of |fit - truth|
+  double median_bound = 0;          // what Gaussian errors at the Cramer-Rao bound would give for it
+  double pull_mean = 0, pull_width = 0, pull_width_error = 0;
+  double coverage = 0, coverage_error = 0;  // of the region that ought to hold 68.27%; binomial error
+};
+
+struct StudyTable {
+  std::string title;
+  std::size_t events = 0, fitted = 0;
+  // x, y, z, time, zenith, azimuth, energy; then position and direction (distances, with regions of three and
+  // two dimensions) and all seven parameters pooled.
+  std::vector<StudyLine> lines;
+  std::vector<std::string> failures;  // event: status: reason
+};
+
+// Over all rows, or those of one energy.
+StudyTable summarise(std::span<const StudyRow> rows, const std::string& title);
+
+// The fit with the other model: what it gets wrong, and how much worse it describes the data.
+struct StudyBias {
+  std::size_t events = 0;
+  double median_angle = 0, median_angle_truth = 0;  // from the truth [rad], with the other and the true model
+  double mean_log_energy = 0, mean_log_energy_error = 0;              // ln(E/truth), other model
+  double mean_log_energy_truth = 0, mean_log_energy_truth_error = 0;  // the true one
+  double mean_delta = 0, mean_delta_error = 0;                        // of -ln L, other - truth
+  double least_significance = 0, median_significance = 0;  // of delta in units of its simulation error
+};
+StudyBias summarise_bias(std::span<const StudyRow> rows);
+
+std::string text_of(const StudyTable& table);
+
+// SVG: pulls of all parameters against a Gaussian, and errors against what the bound allows.
+std::string figure_of_study(std::span<const StudyRow> rows, const std::string& title);
+
+}  // namespace floe
