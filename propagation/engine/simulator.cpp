@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <exception>
 #include <limits>
 #include <random>
 
 #include "data/base/constants.h"
 #include "data/base/error.h"
+#include "propagation/engine/in_order.h"
 #include "propagation/engine/photon_acceptance.h"
 #include "propagation/engine/walker.h"
 
@@ -46,6 +46,11 @@ void count_hits(const std::vector<SimulatedHit>& hits, SimulationSummary& summar
   summary.hits += hits.size();
   for (const SimulatedHit& hit : hits) summary.weights.add(hit.weight);
 }
+
+struct BatchResult {
+  WalkerCounts counts;
+  std::vector<SimulatedHit> hits;
+};
 
 // The batches of a shard: the parts follow each other, so that their hits do, too.
 struct BatchRange {
@@ -102,44 +107,30 @@ SimulationSummary Simulator::run(const Source& source, const SimulationOptions& 
   const auto [first_batch, end_batch] = batches_of(photons, options.shard);
   const int threads = options.threads > 0 ? options.threads : omp_get_num_procs();
   SimulationSummary summary;
-  std::exception_ptr failure;
-
-#pragma omp parallel for schedule(dynamic) ordered num_threads(threads)
-  for (std::int64_t b = first_batch; b < end_batch; ++b) {
-    const std::uint64_t first = static_cast<std::uint64_t>(b) * batch_size;
-    const PhotonBatch batch{options.seed, options.stream, first,
-                            static_cast<std::uint32_t>(std::min<std::uint64_t>(batch_size, photons - first)),
-                            options.absorption_stretch};
-    std::vector<SimulatedHit> hits;
-    WalkerCounts counts;
-    std::exception_ptr problem;
-    try {
-      counts = engine_->walker->walk(source, batch, hits);
-      drop_weightless(hits);
-    } catch (...) {
-      problem = std::current_exception();
-    }
-#pragma omp ordered
-    {
-      // Exceptions must not leave a parallel loop: the first one is kept and thrown after it.
-      try {
-        if (problem) std::rethrow_exception(problem);
-        if (!failure) {
-          summary.propagated += counts.walked;
-          summary.scatters += counts.scatters;
-          summary.queries += counts.queries;
-          count_hits(hits, summary);
-          if (!hits.empty()) sink(hits);
-          if (progress)
-            progress(static_cast<double>(b + 1 - first_batch) / static_cast<double>(end_batch - first_batch),
-                     "propagating photons");
-        }
-      } catch (...) {
-        if (!failure) failure = std::current_exception();
-      }
-    }
-  }
-  if (failure) std::rethrow_exception(failure);
+  const auto take = [&, first_batch = first_batch, end_batch = end_batch](std::int64_t b,
+                                                                          const BatchResult& result) {
+    summary.propagated += result.counts.walked;
+    summary.scatters += result.counts.scatters;
+    summary.queries += result.counts.queries;
+    count_hits(result.hits, summary);
+    if (!result.hits.empty()) sink(result.hits);
+    if (progress)
+      progress(static_cast<double>(b + 1 - first_batch) / static_cast<double>(end_batch - first_batch),
+               "propagating photons");
+  };
+  InOrder<BatchResult, decltype(take)> results(first_batch, 16 * threads, take);
+#pragma omp parallel for schedule(dynamic) num_threads(threads)
+  for (std::int64_t b = first_batch; b < end_batch; ++b)
+    results.bring(b, [&] {
+      const std::uint64_t first = static_cast<std::uint64_t>(b) * batch_size;
+      const auto count = static_cast<std::uint32_t>(std::min<std::uint64_t>(batch_size, photons - first));
+      BatchResult result;
+      result.counts = engine_->walker->walk(
+          source, {options.seed, options.stream, first, count, options.absorption_stretch}, result.hits);
+      drop_weightless(result.hits);
+      return result;
+    });
+  results.rethrow();
   summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return summary;
 }
