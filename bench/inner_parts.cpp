@@ -166,6 +166,7 @@ class Bench {
     ingredient("square root", square_roots);
     ingredient("division", divisions);
     ingredient("table look-up", table_lookups);
+    ingredient("row of a table", table_rows);
     ingredient("load and store", loads_and_stores);
   }
 

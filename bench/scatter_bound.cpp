@@ -13,9 +13,10 @@ const std::vector<Ingredient>& scatter_ingredients() {
       {"logarithm", 4, "depth 1, birefringence 2, angle 1"},
       {"exponential", 1, "angle 1"},
       {"sine and cosine", 3, "birefringence 2, angle 1"},
-      {"square root", 9, "absorption 1, birefringence 6, angle 2"},
-      {"division", 8, "layer 4, birefringence 2, angle 2"},
-      {"table look-up", 14, "layer 6, birefringence 6, clearance 2"},
+      {"square root", 7, "absorption 1, birefringence 4, angle 2"},
+      {"division", 8, "layer 3, birefringence 3, angle 2"},
+      {"table look-up", 2, "clearance 2"},
+      {"row of a table", 2, "layer 1, birefringence 1"},
       {"load and store", 22, "each quantity that changes, once"}};
   return ingredients;
 }

@@ -19,6 +19,8 @@ void fill(Data& data) {
     data.index[i] = static_cast<std::int32_t>(random.bits() % table_size);
   }
   for (float& value : data.table) value = random.uniform();
+  for (TableRow& row : data.rows)
+    for (float& value : row.values) value = random.uniform();
 }
 
 void random_numbers(Data& data) {
@@ -30,12 +32,12 @@ void random_numbers(Data& data) {
 
 void logarithms(Data& data) {
 #pragma omp simd
-  for (int i = 0; i < lanes; ++i) data.out[i] = std::log(data.in[i]);
+  for (int i = 0; i < lanes; ++i) data.out[i] = natural_log(data.in[i]);
 }
 
 void exponentials(Data& data) {
 #pragma omp simd
-  for (int i = 0; i < lanes; ++i) data.out[i] = std::exp(data.in[i]);
+  for (int i = 0; i < lanes; ++i) data.out[i] = decay(-data.in[i]);
 }
 
 void sines_and_cosines(Data& data) {
@@ -60,6 +62,10 @@ void table_lookups(Data& data) {
   const float* table = data.table;
 #pragma omp simd
   for (int i = 0; i < lanes; ++i) data.out[i] = table[data.index[i]];
+}
+
+void table_rows(Data& data) {
+  fetch_rows(data.rows, data.index, data.columns);
 }
 
 void loads_and_stores(Data& data) {

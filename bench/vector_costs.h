@@ -5,6 +5,8 @@
 
 #include <cstdint>
 
+#include "propagation/engine/table_rows.h"
+
 namespace floe::vector_costs {
 
 inline constexpr int lanes = 64;
@@ -16,6 +18,8 @@ struct alignas(64) Data {
   std::uint32_t random0[lanes], random1[lanes], random2[lanes], random3[lanes];
   std::int32_t index[lanes];
   float table[table_size];
+  TableRow rows[table_size];
+  float columns[8][lanes];
 };
 // Values in (0, 1), indices all over the table.
 void fill(Data& data);
@@ -27,6 +31,7 @@ void sines_and_cosines(Data& data);  // of one angle, both
 void square_roots(Data& data);
 void divisions(Data& data);
 void table_lookups(Data& data);
+void table_rows(Data& data);        // eight numbers at one place
 void loads_and_stores(Data& data);  // one of each
 
 }  // namespace floe::vector_costs

@@ -12,7 +12,8 @@ namespace floe {
 // towards (cosine, sine) of a turn around it. The frame around n is that of Duff et al., JCGT 6(1), 2017:
 // smooth except at n = -z. By components and without branches: vector loops call it, too.
 template <typename Scalar>
-void deflect(Scalar one_minus_cos, Scalar cosine, Scalar sine, Scalar& nx, Scalar& ny, Scalar& nz) {
+[[gnu::always_inline]] inline void deflect(Scalar one_minus_cos, Scalar cosine, Scalar sine, Scalar& nx,
+                                           Scalar& ny, Scalar& nz) {
   const Scalar x = nx, y = ny, z = nz;
   const Scalar sign = std::copysign(Scalar(1), z);
   const Scalar a = -1 / (sign + z), b = x * y * a;

@@ -47,15 +47,15 @@ class QuantileTable {
 
   // On a plain pointer, for loops that become vector code.
   struct View {
-    const float* quantiles;
+    const float *lower, *upper;  // of each step
     float operator()(float u) const {
       const float place = u * steps;
       const int index = static_cast<int>(place);
-      const float low = quantiles[index], high = quantiles[index + 1];
+      const float low = lower[index], high = upper[index];
       return low + (place - static_cast<float>(index)) * (high - low);
     }
   };
-  View view() const { return {quantiles_.data()}; }
+  View view() const { return {quantiles_.data(), quantiles_.data() + 1}; }
 
  private:
   static constexpr int steps = 4096;
