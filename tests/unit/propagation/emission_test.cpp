@@ -1,0 +1,209 @@
+// Sources draw their photons many at a time: each as if it were alone, from its own stream.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+
+#include "data/base/constants.h"
+#include "propagation/sources/cascade.h"
+#include "propagation/sources/flasher.h"
+
+namespace floe {
+namespace {
+
+constexpr int N = EmittedPhotons::count;
+
+RandomStream stream_of(int block, int i) {
+  return RandomStream(3, 14, static_cast<std::uint64_t>(N * block + i));
+}
+
+// The photons of many streams are those of each stream alone, and `draws` numbers are used up.
+void expect_the_same_alone(const Source& source, int draws, int blocks = 20) {
+  for (int block = 0; block < blocks; ++block) {
+    RandomStreams streams;
+    for (int i = 0; i < N; ++i) streams.set(i, stream_of(block, i));
+    EmittedPhotons many;
+    source.emit(streams, many);
+    for (int i = 0; i < N; ++i) {
+      RandomStream alone = stream_of(block, i), advanced = alone;
+      const EmittedPhoton photon = source.emit(alone);
+      ASSERT_EQ(photon.position, Vec3f(many.x[i], many.y[i], many.z[i])) << i;
+      ASSERT_EQ(photon.direction, Vec3f(many.nx[i], many.ny[i], many.nz[i])) << i;
+      ASSERT_EQ(photon.time, many.time[i]) << i;
+      ASSERT_EQ(photon.wavelength, many.wavelength[i]) << i;
+      for (int k = 0; k < draws; ++k) advanced.bits();
+      ASSERT_EQ(streams[i].state(), advanced.state()) << i;
+      ASSERT_EQ(alone.state(), advanced.state()) << i;
+      ASSERT_NEAR(photon.direction.cast<double>().norm(), 1, 1e-6);
+    }
+  }
+}
+
+const WavelengthSpectrum& spectrum() {
+  static const WavelengthSpectrum broad({{0, 300}, {0.4, 380}, {1, 600}});
+  return broad;
+}
+
+TEST(Emission, OfCascadesIsTheSameAlone) {
+  for (const CascadeKind kind : {CascadeKind::electron, CascadeKind::gamma, CascadeKind::hadron})
+    for (const double energy : {0.01, 1.0, 1e3, 1e7}) {
+      Cascade cascade;
+      cascade.position = {-300, 200, 100};
+      cascade.time = 1e4;
+      cascade.energy = energy;
+      cascade.kind = kind;
+      for (const double zenith : {0.0, 1.0, pi}) {
+        cascade.zenith = zenith;
+        cascade.azimuth = 2 * zenith;
+        // Colour, depth, and two angles each for the particle and for the photon around it; the Cherenkov
+        // angle follows from the colour.
+        expect_the_same_alone(CascadeSource(cascade, spectrum()), 5, 3);
+      }
+    }
+}
+
+TEST(Emission, OfCascadesIsAlongTheAxisAtTheSpeedOfLight) {
+  Cascade cascade;
+  cascade.position = {10, -20, 30};
+  cascade.time = 50;
+  cascade.energy = 1000;
+  cascade.zenith = 0.7;
+  cascade.azimuth = 4;
+  const CascadeSource source(cascade, spectrum());
+  const Vec3 axis = travel_direction(cascade.zenith, cascade.azimuth);
+  for (int i = 0; i < 1000; ++i) {
+    RandomStream random = stream_of(0, i);
+    const EmittedPhoton photon = source.emit(random);
+    const Vec3 offset = photon.position.cast<double>() - cascade.position;
+    const double depth = offset.dot(axis);
+    ASSERT_GE(depth, -1e-4);
+    ASSERT_NEAR((offset - depth * axis).norm(), 0, 1e-5);
+    ASSERT_NEAR(photon.time, cascade.time + depth / speed_of_light, 1e-4);
+    // The first number is the colour's.
+    RandomStream again = stream_of(0, i);
+    ASSERT_NEAR(photon.wavelength, spectrum().sample(again.uniform()), 0.05);
+  }
+}
+
+class FlasherEmission : public ::testing::Test {
+ protected:
+  FlasherEmission() : detector_("one", {module_at({30, -40, 50})}) {}
+  static Module module_at(const Vec3& position) {
+    Module module;
+    module.id = {1, 1};
+    module.position = position;
+    return module;
+  }
+  Detector detector_;
+};
+
+TEST_F(FlasherEmission, IsTheSameAloneWithEveryOption) {
+  for (const bool isotropic : {false, true})
+    for (const std::optional<double> azimuth :
+         {std::optional<double>(), std::optional(0.0), std::optional(2.5)})
+      for (const double width : {0.0, 1e-3, 9.7 * degree, 60 * degree, 90 * degree})
+        for (const double elevation : {-0.2 * degree, 48 * degree, 90 * degree, -90 * degree}) {
+          FlasherSettings settings;
+          settings.photons = 1000;
+          settings.isotropic = isotropic;
+          settings.azimuth = azimuth;
+          settings.beam_width = width;
+          settings.elevation = elevation;
+          settings.time = 17;
+          // The colour; both angles, or the LED's azimuth where it is not given and two around its beam.
+          const int draws = 1 + (isotropic ? 2 : (azimuth ? 0 : 1) + (width > 0 ? 2 : 0));
+          expect_the_same_alone(FlasherSource(detector_, {1, 1}, settings, led_line(405)), draws, 3);
+        }
+}
+
+TEST_F(FlasherEmission, StartsOnTheModulesSurface) {
+  for (const bool isotropic : {false, true}) {
+    FlasherSettings settings;
+    settings.photons = 1000;
+    settings.isotropic = isotropic;
+    settings.time = 17;
+    const FlasherSource source(detector_, {1, 1}, settings, led_line(405));
+    EXPECT_EQ(source.emitting_module(), 0U);
+    for (int i = 0; i < 1000; ++i) {
+      RandomStream random = stream_of(1, i);
+      const EmittedPhoton photon = source.emit(random);
+      const Vec3 place = detector_.modules()[0].position + module_radius * photon.direction.cast<double>();
+      ASSERT_NEAR((photon.position.cast<double>() - place).norm(), 0, 1e-5);
+      ASSERT_NEAR(photon.time, 17 + module_radius / speed_of_light, 1e-5);
+      ASSERT_NEAR(photon.wavelength, 405, 10.001);
+    }
+  }
+}
+
+// A pencil beam points where its LED points; around the vertical it keeps its elevation.
+TEST_F(FlasherEmission, OfAPencilKeepsItsElevation) {
+  FlasherSettings settings;
+  settings.photons = 1000;
+  settings.beam_width = 0;
+  settings.elevation = 48 * degree;
+  for (const bool turned : {false, true}) {
+    settings.azimuth = turned ? std::optional<double>() : std::optional(-1.0);
+    const FlasherSource source(detector_, {1, 1}, settings, led_line(405));
+    for (int i = 0; i < 1000; ++i) {
+      RandomStream random = stream_of(2, i);
+      const EmittedPhoton photon = source.emit(random);
+      ASSERT_NEAR(photon.direction.z(), std::sin(48 * degree), 1e-6);
+      if (!turned) {
+        ASSERT_NEAR(std::atan2(photon.direction.y(), photon.direction.x()), -1, 1e-6);
+      }
+    }
+  }
+}
+
+TEST(Emission, OfPointSourcesIsTheSameAlone) {
+  expect_the_same_alone(PointSource(Vec3(1, 2, 3), 4, 1000, spectrum()), 3);
+  const Vec3 along(1, -2, 2);
+  const PointSource beam(Vec3(1, 2, 3), 4, 1000, spectrum(), along);
+  expect_the_same_alone(beam, 1);
+  RandomStream random = stream_of(0, 0);
+  const EmittedPhoton photon = beam.emit(random);
+  EXPECT_EQ(photon.position, Vec3f(1, 2, 3));
+  EXPECT_EQ(photon.time, 4);
+  EXPECT_NEAR((photon.direction.cast<double>() - along / 3).norm(), 0, 1e-6);
+}
+
+// Draws a number of numbers that differs from photon to photon, which blocks of photons must not mix up.
+class Unsteady : public OneByOneSource {
+ public:
+  double photons() const override { return 1; }
+
+ protected:
+  EmittedPhoton emit_one(RandomStream& random) const override {
+    const std::uint32_t draws = random.bits() % 5;
+    float sum = 0;
+    for (std::uint32_t k = 0; k < draws; ++k) sum += random.uniform();
+    return {{sum, static_cast<float>(draws), 3}, 4 + sum, {0.6F, 0, -0.8F}, 400 + sum};
+  }
+};
+
+TEST(Emission, OfOneByOneSourcesIsTheSameAlone) {
+  const Unsteady source;
+  for (int block = 0; block < 20; ++block) {
+    RandomStreams streams;
+    for (int i = 0; i < N; ++i) streams.set(i, stream_of(block, i));
+    EmittedPhotons many;
+    source.emit(streams, many);
+    for (int i = 0; i < N; ++i) {
+      RandomStream alone = stream_of(block, i), by_hand = alone;
+      const EmittedPhoton photon = source.emit(alone);
+      const std::uint32_t draws = by_hand.bits() % 5;
+      float sum = 0;
+      for (std::uint32_t k = 0; k < draws; ++k) sum += by_hand.uniform();
+      EXPECT_EQ(photon.position, Vec3f(sum, static_cast<float>(draws), 3));
+      EXPECT_EQ(Vec3f(many.x[i], many.y[i], many.z[i]), photon.position);
+      EXPECT_EQ(Vec3f(many.nx[i], many.ny[i], many.nz[i]), Vec3f(0.6F, 0, -0.8F));
+      EXPECT_EQ(many.time[i], 4 + sum);
+      EXPECT_EQ(many.wavelength[i], 400 + sum);
+      EXPECT_EQ(streams[i].state(), by_hand.state());
+      EXPECT_EQ(alone.state(), by_hand.state());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace floe
