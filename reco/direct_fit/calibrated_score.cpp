@@ -1,6 +1,7 @@
 #include "reco/direct_fit/calibrated_score.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
 
@@ -13,8 +14,10 @@
 namespace floe {
 namespace {
 
-constexpr int newton_steps = 12;
-constexpr double time_step = 1;  // of the numeric derivative in time [ns]
+constexpr int newton_steps = 14, full_steps = 4;
+constexpr double least_share = 0.2;
+constexpr double significant = 3;  // standard deviations
+constexpr double time_step = 1;    // of the numeric derivative in time [ns]
 using Linear = Eigen::Matrix<double, 1 + regression_coordinates, 1>;  // 1 and the five coordinates
 using LinearFit = Eigen::Matrix<double, 7, 1 + regression_coordinates>;
 
@@ -41,6 +44,8 @@ class Fold {
   }
 
   const std::vector<Vector7>& weights() const { return weights_; }
+  // Of a bin's count about its expectation, with finite simulation and model error, in units of Poisson's.
+  double relative_variance(std::size_t bin) const { return relative_variance_[bin]; }
 
   // The simulated sums less the expected ones as a linear function of place and direction, of one event, and
   // its derivative in time. How much of the slopes is more than noise is up to `keep`.
@@ -128,6 +133,7 @@ class Fold {
       const double mean = data_.repeats() * std::exp(values[i].log_mean);
       means_.push_back(mean);
       const double variance = 1 + data_.repeats() / all_repeats + error * error * mean;
+      relative_variance_.push_back(variance);
       weights_.push_back(bin.left_out    ? Vector7::Zero()
                          : bin.saturated ? values[i].gradient
                                          : Vector7(values[i].gradient / variance));
@@ -174,7 +180,7 @@ class Fold {
   const Emulator &own_, &other_;
   std::span<const LightSample* const> samples_;
   std::vector<Vector7> weights_, places_;
-  std::vector<double> means_;  // of the data
+  std::vector<double> means_, relative_variance_;  // of the data
   Design inverse_normal_;
 };
 
@@ -189,8 +195,8 @@ class CalibratedScore {
     if (a.scatter_freedom + b.scatter_freedom > 0)
       dispersion_ = (a.scatter + b.scatter) / (a.scatter_freedom + b.scatter_freedom);
     // Slopes of the correction that noise alone would make are none (James and Stein).
-    const double noise = dispersion_ * (a.slope_freedom + b.slope_freedom);
-    keep_ = std::max(0.0, 1 - noise / std::max(a.slopes + b.slopes, 1e-300));
+    const double freedom = a.slope_freedom + b.slope_freedom, square = (a.slopes + b.slopes) / dispersion_;
+    keep_ = square > freedom + significant * std::sqrt(2 * freedom) ? 1 - freedom / square : 0;
     set_time(0);
   }
 
@@ -225,6 +231,23 @@ class CalibratedScore {
     return sum;
   }
 
+  // The slopes if the weights were perfect: what all sums' variance is for them.
+  Matrix7 best_slopes() const {
+    std::vector<Emulator::Evaluation> values;
+    emulator_.evaluate(Vector7::Zero(), values);
+    Matrix7 sum = Matrix7::Zero();
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const Emulator::Bin& bin = emulator_.bins()[i];
+      if (bin.left_out) continue;
+      const Vector7 weight = 0.5 * (folds_[0].weights()[i] + folds_[1].weights()[i]);
+      const double mean =
+          bin.saturated ? emulator_.likelihood(bin, values[i].log_mean).curvature
+                        : folds_[0].relative_variance(i) * data_.repeats() * std::exp(values[i].log_mean);
+      sum += mean * weight * weight.transpose();
+    }
+    return sum;
+  }
+
   Matrix7 simulation_variance(const Vector7& p) const {
     return 0.25 * dispersion_ *
            (folds_[0].simulation_variance(p, keep_) + folds_[1].simulation_variance(p, keep_));
@@ -245,20 +268,22 @@ class CalibratedScore {
   double dispersion_ = 1, keep_ = 1;
 };
 
-// With good weights the slopes of the sums are symmetric; their noise is not.
-Matrix7 symmetric(const Matrix7& slope) {
-  return 0.5 * (slope + slope.transpose());
+// The slopes as they can be: symmetric, and in no direction more than the variance of the sums, which they
+// equal for perfect weights (the information inequality). Where noise leaves less than `least_share` of it,
+// that much is assumed.
+Matrix7 possible_slopes(const Matrix7& slope, const Matrix7& variance) {
+  if (!slope.allFinite() || !variance.allFinite()) return Matrix7::Constant(std::nan(""));
+  const Matrix7 half = 0.5 * (slope + slope.transpose());
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix7> solver(half, variance);
+  if (solver.info() != Eigen::Success) return Matrix7::Constant(std::nan(""));
+  const Vector7 share = solver.eigenvalues().cwiseMax(least_share).cwiseMin(1);
+  const Matrix7 inverse = solver.eigenvectors().transpose() * variance;
+  return inverse.transpose() * share.asDiagonal() * inverse;
 }
 
 Matrix7 sandwich(const Matrix7& slope, const Matrix7& variance) {
-  const Matrix7 inverse = symmetric(slope).fullPivLu().inverse();
+  const Matrix7 inverse = slope.inverse();
   return inverse * variance * inverse.transpose();
-}
-
-// Whether the sums determine all parameters: in units of their own errors, no combination is open.
-bool determines(const Matrix7& slope) {
-  if (!slope.allFinite()) return false;
-  return covariance_of(symmetric(slope)).allFinite();
 }
 
 }  // namespace
@@ -267,33 +292,40 @@ ScoreSolution solve_calibrated_score(const EventData& data, std::span<const Scor
   CalibratedScore score(data, folds);
   ScoreSolution solution;
   solution.dispersion = score.dispersion();
-  Fold::Score now = score.score(solution.step);
   const Vector7 most = trust_region(folds[0].emulator.settings());
-  for (int i = 0; i < newton_steps; ++i) {
-    if (!determines(now.slope)) return solution;
-    Vector7 change = symmetric(now.slope).ldlt().solve(now.gap);
-    const double length = change.cwiseAbs().cwiseQuotient(most).maxCoeff();
-    if (length > 1) change /= length;
-    solution.step += change;
-    score.set_time(solution.step(5));
-    now = score.score(solution.step);
-    // In units of the errors of the data; simulated photons cross the edges of bins one by one.
-    if (length <= 1 && change.dot(symmetric(now.slope) * change) < 3e-3) {
-      solution.converged = true;
+  const Matrix7 best = score.best_slopes();
+  Fold::Score now = score.score(solution.step);
+  Matrix7 slope;
+  double change_square = 0;
+  for (int i = 0; i < newton_steps && !solution.converged; ++i) {
+    slope = possible_slopes(now.slope, best);
+    if (!slope.allFinite()) return solution;
+    Vector7 change = slope.ldlt().solve(now.gap);
+    change_square = change.dot(slope * change);
+    if (i >= full_steps) change *= 0.5;  // simulated photons cross the edges of bins one by one
+    const Vector7 next = solution.step + change;
+    const double length = next.cwiseAbs().cwiseQuotient(most).maxCoeff();
+    solution.step = length > 1 ? Vector7(next / length) : next;
+    if (length > 1 && i >= full_steps) {
+      solution.leaves = true;
       break;
     }
+    score.set_time(solution.step(5));
+    now = score.score(solution.step);
+    solution.converged = length <= 1 && change_square < 0.01;
   }
-  if (!solution.converged || !determines(now.slope)) return solution;
+  // What is left of the noise is small in units of the errors.
+  solution.converged = change_square < 0.1 && !solution.leaves;
   const Matrix7 of_data = score.data_variance(solution.step);
-  solution.data_covariance = sandwich(now.slope, of_data);
-  solution.covariance = sandwich(now.slope, of_data + score.simulation_variance(solution.step));
+  solution.data_covariance = sandwich(slope, of_data);
+  solution.covariance = sandwich(slope, of_data + score.simulation_variance(solution.step));
   return solution;
 }
 
 Matrix7 cramer_rao_bound(const EventData& data, std::span<const ScoreFold, 2> folds) {
   const CalibratedScore score(data, folds);
   const Vector7 here = Vector7::Zero();
-  return sandwich(score.score(here).slope, score.data_variance(here));
+  return sandwich(possible_slopes(score.score(here).slope, score.best_slopes()), score.data_variance(here));
 }
 
 }  // namespace floe

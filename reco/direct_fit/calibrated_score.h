@@ -17,7 +17,7 @@ namespace floe {
 // the weights a little less than optimal. Two folds (each emulator against the other's simulations) use
 // every simulation for both ends.
 struct ScoreFold {
-  Emulator emulator;
+  Emulator emulator;                      // the other fold's must not share its simulations
   std::vector<const LightSample*> fresh;  // near the origin, unknown to `emulator`; at least 7
 };
 
@@ -29,6 +29,7 @@ struct ScoreSolution {
   // several modules and what the emulator cannot follow make it larger.
   double dispersion = 1;
   bool converged = false;
+  bool leaves = false;  // the solution lies outside the trusted region; step leads to its edge
 };
 
 // Both emulators have the same origin, bins and settings; all must outlive the call.

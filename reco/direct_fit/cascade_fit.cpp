@@ -107,15 +107,16 @@ void find_result(ExpectationModel& light, const EventData& data, const FitOption
   const Matrix7 jacobian = LocalFrame(end.light).jacobian(Vector7::Zero(), options.kind);
   fit.covariance = jacobian * end.covariance * jacobian.transpose();
 
+  judge(end, data, track, fit);
+  if (!options.goodness) return;
   if (progress) progress(0.92, "measuring the fit");
-  const double photons = search.useful_photons(fit.cascade, options.oversize, 1, 5e5, 1.2e7);
+  const double photons = search.useful_photons(fit.cascade, options.oversize, 3, 1e6, 1.2e7);
   const Evaluation evaluation = evaluate_cascade(light, data, fit.cascade, photons, options.oversize,
                                                  evaluations, evaluation_stream, options.model_error);
   for (const LightSample& sample : evaluation.samples) ++fit.simulations, fit.photons += sample.propagated;
   measure_goodness(data, evaluation, options, fit);
   for (const std::size_t i : data.brightest(pictured_modules))
     fit.arrival_times.push_back(arrival_times(data, data.lit()[i], evaluation, fit.cascade.time));
-  judge(end, data, track, fit);
 }
 
 }  // namespace

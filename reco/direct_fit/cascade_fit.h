@@ -26,9 +26,10 @@ struct FitOptions {
   double model_error = 0.1;  // sigma of the log-normal error of every bin's expectation; >= 0
   DataSelection selection;   // modules and times left out, dark noise, saturation
   std::uint64_t seed = 1;
-  int threads = 0;      // 0: all cores; the result does not depend on it
-  double effort = 1;    // multiplies the number of photons; > 0
-  int max_rounds = 14;  // of the local fit before it is said not to converge
+  int threads = 0;       // 0: all cores; the result does not depend on it
+  double effort = 1;     // multiplies the number of photons; > 0
+  int max_rounds = 20;   // of the local fit before it is said not to converge
+  bool goodness = true;  // simulate the result again: -ln L, p-value and arrival times
   // Where to begin; nothing: found from the data.
   std::optional<CascadeParameters> start;
 };

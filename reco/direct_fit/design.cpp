@@ -2,6 +2,7 @@
 
 #include <Eigen/QR>
 
+#include <algorithm>
 #include <cmath>
 
 #include "data/base/vec3.h"
@@ -45,6 +46,10 @@ std::vector<Coordinates> simplex_design(std::uint64_t seed, std::uint64_t draw) 
     design.push_back(-corner);
   }
   return design;
+}
+
+double training_oversize(double oversize) {
+  return std::max(oversize, std::clamp(2.5 * oversize, 12.0, 30.0));
 }
 
 std::vector<Vec3> even_directions(int count) {

@@ -14,6 +14,10 @@ namespace floe {
 // not mixed up with curvature; another `draw` gives another rotation, so that several rounds fill space.
 std::vector<Coordinates> simplex_design(std::uint64_t seed, std::uint64_t draw);
 
+// The oversize of simulations that teach weights and slopes, which need many counts more than they need
+// modules of the right size: 2.5 times that of the fit, between 12 and 30, never less than the fit's.
+double training_oversize(double oversize);
+
 // Directions spread evenly over the sphere (Fibonacci spiral).
 std::vector<Vec3> even_directions(int count);
 

@@ -9,7 +9,8 @@
 namespace floe {
 namespace {
 
-constexpr double profile_floor = 1;  // counts added to every bin of a profile when it is shifted
+constexpr double most_variance = 1e6;  // relative, of a bin that nothing is known of
+constexpr double profile_floor = 1;    // counts added to every bin of a profile when it is shifted
 
 }  // namespace
 
@@ -22,7 +23,7 @@ Emulator::Emulator(const EventData& data, const MeanIce& ice, const LightCentre&
     for (std::size_t b = 0; b < module.bin_count(); ++b) {
       const Regression& fit = module.bins[b];
       Bin bin;
-      bin.effective_counts = 1 / (fit.covariance(0, 0) + fit.excess_variance);
+      bin.effective_counts = 1 / (fit.covariance(0, 0) + std::min(fit.excess_variance, most_variance));
       bin.noise = module.data ? module.data->noise[b] : data.dark_noise(module.index);
       if (module.data) {
         bin.data = module.data->counts[b];

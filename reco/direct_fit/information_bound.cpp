@@ -11,7 +11,8 @@
 namespace floe {
 namespace {
 
-constexpr double position_step = 5, direction_step = 8 * degree;
+constexpr double position_step = 5, direction_step = 8 * degree;  // as the fit's
+constexpr double narrow_step = 0.5, narrow_turn = 1 * degree;
 
 using Samples = std::vector<std::unique_ptr<LightSample>>;
 
@@ -21,20 +22,26 @@ std::vector<const LightSample*> pointers(const Samples& samples) {
   return result;
 }
 
+// A draw of the design with such steps; `events` repetitions of the cascade, but not more photons than that.
+struct Draw {
+  double position_step, direction_step, oversize, events, most_photons;
+  std::uint64_t number;
+};
+
 Samples simulate(ExpectationModel& light, const LocalFrame& frame, const FitOptions& options,
-                 std::uint64_t draw) {
+                 const Draw& draw) {
   const CascadeParameters cascade = cascade_of(frame.origin(), options.kind);
-  const double one = light.photons_per_cascade(cascade, options.oversize);
-  const double photons = options.effort * std::clamp(6 * one, 2e6, 2e7);
-  const auto design = simplex_design(options.seed, draw);
+  const double one = light.photons_per_cascade(cascade, draw.oversize);
+  const double photons = options.effort * std::clamp(draw.events * one, 1e6, draw.most_photons);
+  const auto design = simplex_design(options.seed, draw.number);
   Samples samples;
   for (std::size_t i = 0; i < design.size(); ++i) {
     Vector7 local = Vector7::Zero();
-    local.head<3>() = position_step * design[i].head<3>();
-    local.segment<2>(3) = direction_step * design[i].tail<2>();
+    local.head<3>() = draw.position_step * design[i].head<3>();
+    local.segment<2>(3) = draw.direction_step * design[i].tail<2>();
     samples.push_back(std::make_unique<LightSample>(
         light.sample({cascade_of(frame.at(local), options.kind), photons / double(design.size()),
-                      options.oversize, 100 * draw + i})));
+                      draw.oversize, 100 * draw.number + i})));
   }
   return samples;
 }
@@ -45,8 +52,14 @@ Matrix7 cramer_rao_bound(ExpectationModel& light, const CascadeParameters& truth
                          const FitOptions& options) {
   const LightCentre centre = light_centre(truth, options.kind);
   const LocalFrame frame(centre);
-  const Samples halves[2] = {simulate(light, frame, options, 1), simulate(light, frame, options, 2)};
-  std::vector<const LightSample*> fresh[2] = {pointers(halves[0]), pointers(halves[1])}, all = fresh[0];
+  const double wide = training_oversize(options.oversize);
+  const Samples training[2] = {
+      simulate(light, frame, options, {position_step, direction_step, wide, 40, 1e7, 1}),
+      simulate(light, frame, options, {position_step, direction_step, wide, 40, 1e7, 2})};
+  const Samples narrow[2] = {
+      simulate(light, frame, options, {narrow_step, narrow_turn, options.oversize, 2, 1e7, 3}),
+      simulate(light, frame, options, {narrow_step, narrow_turn, options.oversize, 2, 1e7, 4})};
+  std::vector<const LightSample*> fresh[2] = {pointers(narrow[0]), pointers(narrow[1])}, all = fresh[0];
   all.insert(all.end(), fresh[1].begin(), fresh[1].end());
 
   const EventData measured(*light.model().detector, event, options.selection);
@@ -58,8 +71,8 @@ Matrix7 cramer_rao_bound(ExpectationModel& light, const CascadeParameters& truth
   settings.position_step = position_step;
   settings.direction_step = direction_step;
   settings.threads = options.threads;
-  const ScoreFold folds[2] = {{Emulator(data, ice, centre, fresh[1], settings), fresh[0]},
-                              {Emulator(data, ice, centre, fresh[0], settings), fresh[1]}};
+  const ScoreFold folds[2] = {{Emulator(data, ice, centre, pointers(training[0]), settings), fresh[0]},
+                              {Emulator(data, ice, centre, pointers(training[1]), settings), fresh[1]}};
   const Matrix7 jacobian = frame.jacobian(Vector7::Zero(), options.kind);
   return jacobian * cramer_rao_bound(data, folds) * jacobian.transpose();
 }

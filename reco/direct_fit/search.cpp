@@ -12,11 +12,11 @@
 namespace floe {
 namespace {
 
-constexpr double scan_share = 0.15;  // of the progress bar
-constexpr double usual_rounds = 9;   // of a fit, for the progress bar
-constexpr double coarse_oversize = 12;
+constexpr double scan_share = 0.15;   // of the progress bar
+constexpr double usual_rounds = 9;    // of a fit, for the progress bar
 constexpr double charge_per_gev = 2;  // of a contained cascade, roughly [photoelectrons]
-constexpr int most_calibrations = 3;
+constexpr int most_fine_rounds = 2, most_calibrations = 4;
+constexpr double usual_pull = 1.5;  // of a step that noise makes: the largest of seven
 constexpr double least_training_step =
     5;  // weights need not be exact, and are less noisy from a wide region [m]
 constexpr double least_training_turn = 8 * degree;
@@ -67,8 +67,8 @@ void Search::simulate(const LocalFrame& frame, const Stage& stage) {
 std::vector<const LightSample*> Search::near(const LocalFrame& frame, const Stage& stage, Half half) const {
   std::vector<const LightSample*> result;
   for (const auto& simulation : simulations_) {
-    const bool even = simulation->draw % 2 == 0;
-    if ((half == Half::even && !even) || (half == Half::odd && even)) continue;
+    const bool second = simulation->draw % 2 == 1;
+    if ((half == Half::first && second) || (half == Half::second && !second)) continue;
     const LightSample& sample = simulation->sample;
     const Vector7 local = frame.of(light_centre(sample.cascade, options_.kind));
     const double distance = std::hypot(local.head<3>().norm() / stage.position_step,
@@ -108,21 +108,26 @@ Search::RoundEnd Search::round(const LightCentre& origin, const Stage& stage, bo
   return end;
 }
 
+// The step was much smaller than the design, or no more than the noise of simulations makes.
+bool Search::has_settled(const RoundEnd& end, const Stage& stage) {
+  return end.within &&
+         (end.pull < usual_pull || (end.fit.step.head<3>().norm() < 0.4 * stage.position_step &&
+                                    end.fit.step.segment<2>(3).norm() < 0.4 * stage.direction_step));
+}
+
 // Rounds of one stage until the step is smaller than the design, at most `most`.
 Search::RoundEnd Search::settle(LightCentre origin, Stage stage, int most, bool follow_light) {
   RoundEnd end;
   for (int i = 0; i < most; ++i) {
     end = round(origin, stage, follow_light);
     origin = end.light;
-    if (end.fit.step.head<3>().norm() < stage.position_step &&
-        end.fit.step.segment<2>(3).norm() < stage.direction_step)
-      break;
+    if (has_settled(end, stage)) break;
   }
   return end;
 }
 
 LightCentre Search::best_of_two(const std::vector<SeedCandidate>& candidates) {
-  const double oversize = std::max(coarse_oversize, options_.oversize);
+  const double oversize = training_oversize(options_.oversize);
   const CascadeParameters best = cascade_of(candidates.front().light, options_.kind);
   const Stage stage{15, 25 * degree, oversize, useful_photons(best, oversize, 1, 4e5, 2e6)};
   const RoundEnd first = settle(candidates.front().light, stage, 3, false);
@@ -135,80 +140,80 @@ LightCentre Search::best_of_two(const std::vector<SeedCandidate>& candidates) {
 }
 
 Search::End Search::refine(const LightCentre& start) {
-  const double coarse = std::max(coarse_oversize, options_.oversize);
+  const double coarse = training_oversize(options_.oversize);
   const CascadeParameters begin = cascade_of(start, options_.kind);
   const RoundEnd rough =
-      settle(start, {8, 12 * degree, coarse, useful_photons(begin, coarse, 2, 1e6, 4e6)}, 4, true);
+      settle(start, {8, 15 * degree, coarse, useful_photons(begin, coarse, 3, 6e5, 3e6)}, 8, true);
 
   End end{rough.light, {}, false, {}};
   Stage stage;
   Vector7 errors = rough.errors;
   bool last_one_moved = true;
-  for (int fine = 0;
-       fine == 0 || (last_one_moved && static_cast<int>(result_.rounds.size()) < options_.max_rounds);
-       ++fine) {
+  for (int fine = 0; fine == 0 || (last_one_moved && fine < most_fine_rounds); ++fine) {
     stage.position_step = std::clamp(2 * errors.head<3>().norm(), 3.0, 10.0);
     stage.direction_step = std::clamp(2 * errors.segment<2>(3).norm(), 4 * degree, 18 * degree);
     stage.oversize = options_.oversize;
-    stage.photons = useful_photons(cascade_of(end.light, options_.kind), stage.oversize, 3, 2e6, 2e7);
+    stage.photons = useful_photons(cascade_of(end.light, options_.kind), stage.oversize, 3, 1e6, 1e7);
     const RoundEnd now = round(end.light, stage, true);
     end.light = now.light;
     errors = now.errors;
-    last_one_moved = !(now.within && now.fit.step.head<3>().norm() < stage.position_step &&
-                       now.fit.step.segment<2>(3).norm() < stage.direction_step);
+    last_one_moved = !has_settled(now, stage);
   }
   if (!errors.allFinite()) {
     end.trouble = "the data do not determine all seven numbers";
     end.covariance.setConstant(std::numeric_limits<double>::infinity());
     return end;
   }
-  for (int i = 0; i < most_calibrations && !end.converged; ++i) {
-    stage.position_step = std::clamp(2 * errors.head<3>().norm(), 1.0, 10.0);
-    stage.direction_step = std::clamp(2 * errors.segment<2>(3).norm(), 1.5 * degree, 18 * degree);
-    stage.photons = useful_photons(cascade_of(end.light, options_.kind), stage.oversize, 6, 3e6, 4e7);
-    calibrate(end, stage);
-    if (!end.trouble.empty()) break;
-  }
+  for (int i = 0; i < most_calibrations && !end.converged && end.trouble.empty(); ++i) calibrate(end, errors);
   if (!end.converged && end.trouble.empty())
     end.trouble = "the fit was still moving away after the last round";
   return end;
 }
 
-// Two draws of the design, each measured with weights learnt from the other and all that came before.
-void Search::calibrate(End& end, const Stage& stage) {
+// Two draws of a wide design with wide modules teach the weights, two narrow ones at the wanted oversize say
+// what the weighted sums mean.
+void Search::calibrate(End& end, const Vector7& errors) {
   const LocalFrame frame(end.light);
-  Stage wide = stage;
-  wide.position_step = std::max(stage.position_step, least_training_step);
-  wide.direction_step = std::max(stage.direction_step, least_training_turn);
-  std::vector<const LightSample*> fresh[2], all = near(frame, wide);
-  // The emulators' noise must be independent: they share no simulation.
-  std::vector<const LightSample*> training[2] = {near(frame, wide, Half::even), near(frame, wide, Half::odd)};
-  for (int fold = 0; fold < 2; ++fold) {
+  const CascadeParameters here = cascade_of(end.light, options_.kind);
+  const double distance = errors.head<3>().norm(), angle = errors.segment<2>(3).norm();
+  Stage wide{std::clamp(2 * distance, least_training_step, 10.0),
+             std::clamp(2 * angle, least_training_turn, 18 * degree), training_oversize(options_.oversize),
+             0};
+  wide.photons = useful_photons(here, wide.oversize, 30, 1e6, 1e7);
+  Stage narrow{std::clamp(distance, 0.3, 5.0), std::clamp(angle, 0.5 * degree, 10 * degree),
+               options_.oversize, useful_photons(here, options_.oversize, 5, 2e6, 4e7)};
+  // The emulators' noise must be independent, of each other and of the narrow simulations.
+  std::vector<const LightSample*> training[2] = {near(frame, wide, Half::first),
+                                                 near(frame, wide, Half::second)};
+  std::vector<const LightSample*> fresh[2], all;
+  const auto add = [&](const Stage& stage, std::vector<const LightSample*>& samples) {
     const std::size_t before = simulations_.size();
     simulate(frame, stage);
-    for (std::size_t i = before; i < simulations_.size(); ++i) {
-      fresh[fold].push_back(&simulations_[i]->sample);
-      training[1 - fold].push_back(&simulations_[i]->sample);
-      all.push_back(&simulations_[i]->sample);
-    }
+    for (std::size_t i = before; i < simulations_.size(); ++i) samples.push_back(&simulations_[i]->sample);
+  };
+  for (int fold = 0; fold < 2; ++fold) {
+    add(wide, training[fold]);
+    add(narrow, fresh[fold]);
+    all.insert(all.end(), fresh[fold].begin(), fresh[fold].end());
   }
   const EventData data = data_.with_edges(arrival_edges(data_, frame, all, options_.kind));
-  const ScoreFold folds[2] = {{emulate(data, end.light, stage, training[0]), fresh[0]},
-                              {emulate(data, end.light, stage, training[1]), fresh[1]}};
+  const ScoreFold folds[2] = {{emulate(data, end.light, wide, training[0]), fresh[0]},
+                              {emulate(data, end.light, wide, training[1]), fresh[1]}};
   const ScoreSolution solution = solve_calibrated_score(data, folds);
-  if (!solution.converged) {
+  if (!solution.converged && !solution.leaves) {
     end.trouble = "the data do not determine all seven numbers";
     end.covariance.setConstant(std::numeric_limits<double>::infinity());
     return;
   }
   end.light = frame.at(solution.step);
   end.covariance = solution.covariance;
-  const Vector7 errors = solution.covariance.diagonal().cwiseSqrt();
-  end.converged = solution.step.head<3>().norm() < design_reach * stage.position_step &&
-                  solution.step.segment<2>(3).norm() < design_reach * stage.direction_step;
+  const Vector7 found = solution.covariance.diagonal().cwiseSqrt();
+  const double pull = solution.step.cwiseAbs().cwiseQuotient(found).maxCoeff();
+  const bool inside = solution.step.head<3>().norm() < design_reach * narrow.position_step &&
+                      solution.step.segment<2>(3).norm() < design_reach * narrow.direction_step;
+  end.converged = solution.converged && (inside || pull < 1);
   result_.rounds.push_back({cascade_of(end.light, options_.kind), folds[0].emulator.neg_llh(solution.step),
-                            stage.position_step, stage.direction_step, stage.oversize,
-                            solution.step.cwiseAbs().cwiseQuotient(errors).maxCoeff()});
+                            narrow.position_step, narrow.direction_step, narrow.oversize, pull});
 }
 
 Search::End Search::from(const CascadeParameters& start) {

@@ -57,14 +57,15 @@ class Search {
   // blocks.
   RoundEnd round(const LightCentre& origin, const Stage& stage, bool follow_light);
   void simulate(const LocalFrame& frame, const Stage& stage);
-  enum class Half { both, even, odd };  // of the designs' draws
+  enum class Half { both, first, second };  // draws of the design in turn
   std::vector<const LightSample*> near(const LocalFrame& frame, const Stage& stage,
                                        Half half = Half::both) const;
   Emulator emulate(const EventData& data, const LightCentre& origin, const Stage& stage,
                    std::span<const LightSample* const> samples) const;
+  static bool has_settled(const RoundEnd& end, const Stage& stage);
   RoundEnd settle(LightCentre origin, Stage stage, int most, bool follow_light);
   End refine(const LightCentre& light);
-  void calibrate(End& end, const Stage& stage);
+  void calibrate(End& end, const Vector7& errors);
   LightCentre best_of_two(const std::vector<SeedCandidate>& candidates);
   void report(double within_round, const std::string& what);
 
