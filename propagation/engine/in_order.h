@@ -23,10 +23,11 @@ class InOrder {
   // Makes the result of a piece and brings it. Every piece must be brought, in rising order by any thread.
   template <typename Make>
   void bring(std::int64_t piece, Make make) {
+    std::unique_lock lock(mutex_, std::defer_lock);
     try {
       if (failed()) return;
       Result result = make();
-      std::unique_lock lock(mutex_);
+      lock.lock();
       room_.wait(lock, [&] { return failure_ || piece < next_ + ahead_; });
       if (failure_) return;
       waiting_.emplace(piece, std::move(result));
@@ -36,7 +37,8 @@ class InOrder {
         ++next_;
       }
     } catch (...) {
-      const std::lock_guard lock(mutex_);
+      // What `take` throws is kept before another thread can come in and call it again.
+      if (!lock.owns_lock()) lock.lock();
       if (!failure_) failure_ = std::current_exception();
     }
     room_.notify_all();

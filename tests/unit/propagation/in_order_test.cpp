@@ -171,6 +171,44 @@ TEST(InOrder, WakesWhoWaitsForRoomWhenWhoTakesThrows) {
   EXPECT_THROW(results.rethrow(), std::runtime_error);
 }
 
+// Nothing is taken once more while the exception is on its way: results take their time to be destroyed,
+// which is when other threads come in.
+TEST(InOrder, TakesNothingAfterAnExceptionOfWhoTakes) {
+  struct Slow {
+    Slow() = default;
+    Slow(Slow&&) noexcept {}
+    ~Slow() { std::this_thread::sleep_for(std::chrono::milliseconds(5)); }
+  };
+  int calls = 0;
+  const auto take = [&](std::int64_t, const Slow&) {
+    ++calls;
+    throw std::runtime_error("disk full");
+  };
+  InOrder<Slow, decltype(take)> results(0, 100, take);
+  share_out(0, 30, [&](std::int64_t piece) { results.bring(piece, [] { return Slow(); }); });
+  EXPECT_EQ(calls, 1);
+  EXPECT_THROW(results.rethrow(), std::runtime_error);
+}
+
+TEST(InOrder, EndsForAllThreadsWithTheExceptionOfWhoTakes) {
+  std::int64_t taken = 0;
+  const auto take = [&](std::int64_t piece, int) {
+    EXPECT_EQ(piece, taken++);
+    if (piece == 70) throw std::runtime_error("disk full");
+  };
+  InOrder<int, decltype(take)> results(0, 3, take);
+  std::atomic<int> made = 0;
+  share_out(0, 100000, [&](std::int64_t piece) {
+    results.bring(piece, [&] {
+      ++made;
+      return 0;
+    });
+  });
+  EXPECT_EQ(taken, 71);                      // nothing after that
+  EXPECT_LE(made.load(), 71 + 3 + threads);  // and no more work
+  EXPECT_THROW(results.rethrow(), std::runtime_error);
+}
+
 // Of several exceptions the first is kept.
 TEST(InOrder, KeepsOneException) {
   const auto take = [](std::int64_t, int) { FAIL() << "nothing to take"; };
