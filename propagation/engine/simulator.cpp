@@ -119,7 +119,7 @@ SimulationSummary Simulator::run(const Source& source, const SimulationOptions& 
                "propagating photons");
   };
   InOrder<BatchResult, decltype(take)> results(first_batch, 16 * threads, take);
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
+#pragma omp parallel for schedule(monotonic : dynamic) num_threads(threads)
   for (std::int64_t b = first_batch; b < end_batch; ++b)
     results.bring(b, [&] {
       const std::uint64_t first = static_cast<std::uint64_t>(b) * batch_size;

@@ -36,7 +36,7 @@ inline constexpr Range simplified_liu_fraction{0, 1, "f_SL, fraction of simplifi
 inline constexpr Range mean_cosine{-0.9999, 0.9999, "g, mean cosine of the scattering angle"};
 inline constexpr Range flow_azimuth_deg{-360, 360, "azimuth of the ice flow [deg]"};
 inline constexpr Range hole_ice_radius{0, 100, "hole ice radius [module radii]"};
-inline constexpr Range hole_ice_length{1e-6, 1e6, "hole ice length [m]"};
+inline constexpr Range hole_ice_length{1e-3, 1e6, "hole ice length [m]"};
 inline constexpr Range old_absorption_scaling{-10, 10, "scaling of the old absorption anisotropy"};
 // Of sigma and m: a negative amplitude or angle scale would turn the functions' meaning around.
 inline constexpr Range diffusion_A{0, 1e3, "A of a birefringence function"};
