@@ -197,9 +197,8 @@ void add_reconstruct(CLI::App& floe) {
       "  floe reconstruct event.hits.gz --ice my-ice --json fit.json\n"
       "  floe reconstruct event.h5 --hypothesis hadron --threads 2\n"
       "  floe reconstruct run.h5 --json fits.json --bad 21,30 --noise-rate 500 --charge-cap 300\n"
-      "Many events run side by side. With --json each is kept in FILE.rows as soon as it is done, and the "
-      "same "
-      "command goes on where a stopped one was.\n"
+      "Many events run side by side. With --json each is kept in FILE.rows as soon as it is done,\n"
+      "and the same command goes on where a stopped one was.\n"
       "Exit code 4 when an event has no result: the reason is printed, and stands in the JSON file.");
   app.callback([options] { run_reconstruct(*options); });
 }

@@ -210,9 +210,8 @@ void add_study(CLI::App& floe) {
       "  floe study --group 1000,4,20 --rows quick.jsonl --picture quick.svg\n"
       "  floe study --group 1e4,40,10 --group 1e5,40,20 --group 1e6,10,40 --rows study.jsonl\n"
       "  floe study --group 1e4,5,20 --fit-without birefringence --rows bias.jsonl\n"
-      "Positions and directions are drawn at random, at least 50 m inside the detector. Fits begin at the "
-      "data, "
-      "without the truth.");
+      "Positions and directions are drawn at random, at least 50 m inside the detector.\n"
+      "Fits begin at the data, without the truth.");
   app.callback([command] { run_study(*command); });
 }
 

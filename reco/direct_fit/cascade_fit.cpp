@@ -110,7 +110,7 @@ void find_result(ExpectationModel& light, const EventData& data, const FitOption
   judge(end, data, track, fit);
   if (!options.goodness) return;
   if (progress) progress(0.92, "measuring the fit");
-  const double photons = search.useful_photons(fit.cascade, options.oversize, 3, 1e6, 1.2e7);
+  const double photons = search.useful_photons(fit.cascade, options.oversize, 3, 4e6, 1.2e7);
   const Evaluation evaluation = evaluate_cascade(light, data, fit.cascade, photons, options.oversize,
                                                  evaluations, evaluation_stream, options.model_error);
   for (const LightSample& sample : evaluation.samples) ++fit.simulations, fit.photons += sample.propagated;

@@ -16,7 +16,9 @@ constexpr double scan_share = 0.15;   // of the progress bar
 constexpr double usual_rounds = 9;    // of a fit, for the progress bar
 constexpr double charge_per_gev = 2;  // of a contained cascade, roughly [photoelectrons]
 constexpr int most_fine_rounds = 2, most_calibrations = 4;
-constexpr double usual_pull = 1.5;  // of a step that noise makes: the largest of seven
+constexpr int most_rounds_without_score = 5;
+constexpr double acceptable_pull = 1.5;  // of the last step of all
+constexpr double usual_pull = 1.5;       // of a step that noise makes: the largest of seven
 constexpr double least_training_step =
     5;  // weights need not be exact, and are less noisy from a wide region [m]
 constexpr double least_training_turn = 8 * degree;
@@ -110,7 +112,7 @@ Search::RoundEnd Search::round(const LightCentre& origin, const Stage& stage, bo
 
 // The step was much smaller than the design, or no more than the noise of simulations makes.
 bool Search::has_settled(const RoundEnd& end, const Stage& stage) {
-  return end.within &&
+  return end.within && end.errors.allFinite() &&
          (end.pull < usual_pull || (end.fit.step.head<3>().norm() < 0.4 * stage.position_step &&
                                     end.fit.step.segment<2>(3).norm() < 0.4 * stage.direction_step));
 }
@@ -145,7 +147,8 @@ Search::End Search::refine(const LightCentre& start) {
   const RoundEnd rough =
       settle(start, {8, 15 * degree, coarse, useful_photons(begin, coarse, 3, 6e5, 3e6)}, 8, true);
 
-  End end{rough.light, {}, false, {}};
+  End end;
+  end.light = rough.light;
   Stage stage;
   Vector7 errors = rough.errors;
   bool last_one_moved = true;
@@ -155,6 +158,7 @@ Search::End Search::refine(const LightCentre& start) {
     stage.oversize = options_.oversize;
     stage.photons = useful_photons(cascade_of(end.light, options_.kind), stage.oversize, 3, 1e6, 1e7);
     const RoundEnd now = round(end.light, stage, true);
+    if (!now.errors.allFinite()) break;  // too little light for narrow steps: the wider ones have to do
     end.light = now.light;
     errors = now.errors;
     last_one_moved = !has_settled(now, stage);
@@ -164,9 +168,18 @@ Search::End Search::refine(const LightCentre& start) {
     end.covariance.setConstant(std::numeric_limits<double>::infinity());
     return end;
   }
-  for (int i = 0; i < most_calibrations && !end.converged && end.trouble.empty(); ++i) calibrate(end, errors);
-  if (!end.converged && end.trouble.empty())
-    end.trouble = "the fit was still moving away after the last round";
+  for (int i = 0; i < most_calibrations && !end.converged && !end.unsolved; ++i) calibrate(end, errors);
+  if (end.unsolved) {
+    // Too little light for the score's seven sums: the emulator's own minimum and curvature are what is left.
+    const RoundEnd last = settle(end.light, stage, most_rounds_without_score, true);
+    end.light = last.light;
+    end.covariance = covariance_of(last.fit.information);
+    end.converged = has_settled(last, stage);
+  }
+  end.converged |= !end.unsolved && end.pull < acceptable_pull;
+  if (!end.converged)
+    end.trouble = end.unsolved ? "the data do not determine all seven numbers"
+                               : "the fit was still moving away after the last round";
   return end;
 }
 
@@ -201,19 +214,19 @@ void Search::calibrate(End& end, const Vector7& errors) {
                               {emulate(data, end.light, wide, training[1]), fresh[1]}};
   const ScoreSolution solution = solve_calibrated_score(data, folds);
   if (!solution.converged && !solution.leaves) {
-    end.trouble = "the data do not determine all seven numbers";
+    end.unsolved = true;
     end.covariance.setConstant(std::numeric_limits<double>::infinity());
     return;
   }
   end.light = frame.at(solution.step);
   end.covariance = solution.covariance;
   const Vector7 found = solution.covariance.diagonal().cwiseSqrt();
-  const double pull = solution.step.cwiseAbs().cwiseQuotient(found).maxCoeff();
+  end.pull = solution.step.cwiseAbs().cwiseQuotient(found).maxCoeff();
   const bool inside = solution.step.head<3>().norm() < design_reach * narrow.position_step &&
                       solution.step.segment<2>(3).norm() < design_reach * narrow.direction_step;
-  end.converged = solution.converged && (inside || pull < 1);
+  end.converged = solution.converged && (inside || end.pull < 1);
   result_.rounds.push_back({cascade_of(end.light, options_.kind), folds[0].emulator.neg_llh(solution.step),
-                            narrow.position_step, narrow.direction_step, narrow.oversize, pull});
+                            narrow.position_step, narrow.direction_step, narrow.oversize, end.pull});
 }
 
 Search::End Search::from(const CascadeParameters& start) {

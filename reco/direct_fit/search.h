@@ -1,6 +1,7 @@
 // The direct fit's way through parameter space: rounds of simulation, emulation and a local fit.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -36,7 +37,9 @@ class Search {
     LightCentre light;
     Matrix7 covariance;  // of the local numbers around `light`
     bool converged = false;
-    std::string trouble;  // in words, when it did not
+    double pull = std::numeric_limits<double>::infinity();  // largest last step in units of its error
+    bool unsolved = false;                                  // the calibrated score has no solution
+    std::string trouble;                                    // in words, when it did not converge
   };
   End from_scratch(const PointSeed& point);
   End from(const CascadeParameters& start);

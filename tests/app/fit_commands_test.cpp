@@ -99,7 +99,7 @@ TEST(Compare, WritesBothFitsTheirDifferenceAndAPicture) {
   const TemporaryFolder folder;
   simulate(folder, "1000");
   const Outcome outcome = run_floe(
-      folder.path(), "compare event.h5 --without birefringence --effort 0.05 --json both.json -o both.svg");
+      folder.path(), "compare event.h5 --without birefringence --effort 0.2 --json both.json -o both.svg");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const Json event = json_in(folder, "both.json")["events"].at(0);
   ASSERT_EQ(event["fits"].size(), 2u);
