@@ -12,8 +12,8 @@ namespace floe {
 
 // Threads bring the results of pieces first, first + 1, ... as they finish them; `take` receives them in that
 // order, one at a time, from whichever thread completes the row. Nobody waits for a slower thread unless
-// `ahead` >= 1 results are piled up. An exception, of a piece or of `take`, ends the hand-over: later results are
-// dropped, and rethrow() throws it.
+// `ahead` >= 1 results are piled up. An exception, of a piece or of `take`, ends the hand-over: later results
+// are dropped, and rethrow() throws it.
 template <typename Result, typename Take>
 class InOrder {
  public:

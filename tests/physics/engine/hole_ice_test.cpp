@@ -231,9 +231,10 @@ TEST_P(HoleIceWalk, FlasherShinesOutOfItsColumn) {
   for (const SimulatedHit& hit : hits) ASSERT_EQ(hit.module, 1U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, HoleIceWalk, ::testing::Values(EngineKind::plain, EngineKind::vector), [](const auto& engine) {
-  return engine.param == EngineKind::vector ? "vector" : "plain";
-});
+INSTANTIATE_TEST_SUITE_P(Engines, HoleIceWalk, ::testing::Values(EngineKind::plain, EngineKind::vector),
+                         [](const auto& engine) {
+                           return engine.param == EngineKind::vector ? "vector" : "plain";
+                         });
 
 }  // namespace
 }  // namespace floe
