@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "apps/option_values.h"
@@ -22,6 +23,21 @@ Json covariance_json(const CascadeFit& fit) {
     rows.push_back(std::move(row));
   }
   return rows;
+}
+
+Json areas_json(const SkyMap& map) {
+  return {{"area_50_deg2", map.area(0.5)}, {"area_90_deg2", map.area(0.9)}, {"cut_90", map.is_cut(0.9)}};
+}
+
+Json profile_json(const ProfileIntervals& intervals) {
+  constexpr std::array<const char*, 7> names{"x",          "y",           "z",         "time_ns",
+                                             "zenith_deg", "azimuth_deg", "energy_gev"};
+  Json json = Json::object();
+  for (std::size_t i = 0; i < 7; ++i) {
+    const double unit = i == 4 || i == 5 ? degree : 1;
+    json[names[i]] = Json::array({intervals[i].low / unit, intervals[i].high / unit});
+  }
+  return json;
 }
 
 ModuleId parse_module(const std::string& option, const std::string& text) {
@@ -171,6 +187,8 @@ Json fit_json(const CascadeFit& fit) {
     json["ndof"] = fit.ndof;
     json["p_value"] = fit.p_value;
   }
+  if (fit.sky_map) json["sky_map"] = areas_json(*fit.sky_map);
+  if (fit.profile) json["profile"] = profile_json(*fit.profile);
   json["hypothesis"] = fit.kind == CascadeKind::hadron ? "hadron" : "em";
   json["ice"] = {{"name", fit.ice_name}, {"hash", fit.ice_hash}};
   json["neg_llh_error"] = fit.neg_llh_error;

@@ -36,7 +36,8 @@ std::vector<ModuleId> parse_modules(const std::string& option, const std::string
 // "BEGIN,END" [ns] of all modules, or "STRING,DOM:BEGIN,END" of one.
 TimeWindow parse_window(const std::string& option, const std::string& text);
 
-// The fit as files have it: metres, nanoseconds, degrees, GeV. Values are null where nothing was fitted.
+// The fit as files have it: metres, nanoseconds, degrees, GeV. Values are null where nothing was fitted or,
+// in "profile", where the interval does not end; "sky_map" and "profile" are there when the fit has them.
 Json fit_json(const CascadeFit& fit);
 
 }  // namespace floe

@@ -1,6 +1,7 @@
 // floe reconstruct: position, time, direction and energy of cascades from their hits.
 #include <fmt/format.h>
 
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -15,20 +16,27 @@
 #include "apps/planned_output.h"
 #include "apps/progress_bar.h"
 #include "apps/row_journal.h"
+#include "data/base/atomic_file.h"
 #include "data/base/error.h"
 #include "data/base/hash.h"
 #include "reco/direct_fit/cascade_fit.h"
+#include "reco/direct_fit/sky_map_file.h"
+#include "reco/direct_fit/sky_map_picture.h"
 #include "reco/event_data.h"
 
 namespace floe {
 
 namespace {
 
+constexpr int sky_map_pixels = 41;
+
 struct ReconstructOptions {
   std::vector<std::string> files;
   ModelRequest model;
   FitSettings fit;
   OutputOptions output;
+  std::optional<std::string> sky_map, sky_map_picture;
+  bool profile = false;
 };
 
 // What is kept of one event: everything that is printed and written.
@@ -36,6 +44,7 @@ struct EventResult {
   Json json;          // as it stands in the output
   std::string words;  // of the fit, for people
   bool usable = false, track_like = false;
+  std::optional<SkyMap> sky_map;
 };
 
 EventResult result_of(const Event& event, const CascadeFit& fit) {
@@ -46,7 +55,29 @@ EventResult result_of(const Event& event, const CascadeFit& fit) {
            {"seconds", fit.seconds}},
           describe(fit),
           fit.usable(),
-          fit.status == FitStatus::track_like};
+          fit.status == FitStatus::track_like,
+          fit.sky_map};
+}
+
+// Everything of a map, so that a run that goes on later can write it: what is not known becomes null.
+Json to_json(const SkyMap& map) {
+  return {{"pixels", map.pixels},
+          {"step", map.step},
+          {"zenith", map.zenith},
+          {"azimuth", map.azimuth},
+          {"delta_neg_llh", map.delta_neg_llh}};
+}
+
+SkyMap sky_map_of(const Json& json) {
+  SkyMap map{json.at("pixels").get<int>(),
+             json.at("step").get<double>(),
+             json.at("zenith").get<double>(),
+             json.at("azimuth").get<double>(),
+             {}};
+  for (const Json& delta : json.at("delta_neg_llh"))
+    map.delta_neg_llh.push_back(delta.is_null() ? std::numeric_limits<double>::quiet_NaN()
+                                                : delta.get<double>());
+  return map;
 }
 
 Json row_of(std::size_t index, const EventResult& result) {
@@ -54,12 +85,18 @@ Json row_of(std::size_t index, const EventResult& result) {
           {"result", result.json},
           {"words", result.words},
           {"usable", result.usable},
-          {"track_like", result.track_like}};
+          {"track_like", result.track_like},
+          {"sky_map", result.sky_map ? to_json(*result.sky_map) : Json()}};
 }
 
 EventResult result_of(const Json& row) {
-  return {row.at("result"), row.at("words").get<std::string>(), row.at("usable").get<bool>(),
-          row.at("track_like").get<bool>()};
+  EventResult result{row.at("result"),
+                     row.at("words").get<std::string>(),
+                     row.at("usable").get<bool>(),
+                     row.at("track_like").get<bool>(),
+                     {}};
+  if (const Json& map = row.at("sky_map"); !map.is_null()) result.sky_map = sky_map_of(map);
+  return result;
 }
 
 std::string hash_of(const std::vector<Event>& events) {
@@ -78,6 +115,8 @@ Json heading_of(const Model& model, const FitOptions& fit, const std::vector<Eve
           {"version", FLOE_VERSION},
           {"model", to_json(model)},
           {"settings", to_json(fit)},
+          {"sky_map_pixels", fit.sky_map_pixels},
+          {"profile", fit.profile},
           {"events", hash_of(events)}};
 }
 
@@ -125,6 +164,12 @@ class EventRun {
     for (const auto& result : results_) list.push_back(result->json);
     return list;
   }
+  std::vector<SkyMapOfEvent> sky_maps() const {
+    std::vector<SkyMapOfEvent> maps;
+    for (std::size_t i = 0; i < events_.size(); ++i)
+      if (results_[i]->sky_map) maps.push_back({events_[i].id, *results_[i]->sky_map});
+    return maps;
+  }
   // "event NAME: REASON" of those without result, a line each.
   std::string failures() const {
     std::string text;
@@ -146,6 +191,8 @@ class EventRun {
       const std::string& id = events_[said_].id;
       if (result.track_like)
         fmt::print(stderr, "floe: warning: event {}: {}\n", id, result.json["reason"].get<std::string>());
+      if (fit_.sky_map_pixels > 0 && result.usable && !result.sky_map)
+        fmt::print(stderr, "floe: warning: event {}: no map: the fit ended without its last step\n", id);
       if (!quiet_) fmt::print("event {}: {}", id, result.words);
     }
   }
@@ -161,10 +208,29 @@ class EventRun {
   std::size_t done_ = 0, said_ = 0;
 };
 
+FitOptions fit_options_of(const ReconstructOptions& options) {
+  FitOptions fit = to_fit_options(options.fit);
+  if (options.sky_map || options.sky_map_picture) fit.sky_map_pixels = sky_map_pixels;
+  fit.profile = options.profile;
+  return fit;
+}
+
+// The truth stands in pictures of simulated cascades; no fit sees it.
+std::string picture_of(const Event& event, const SkyMap& map) {
+  std::optional<Origin> truth;
+  if (event.truth.size() == 1) truth = Origin{event.truth[0].zenith, event.truth[0].azimuth};
+  return figure_of_sky_map(map, "event " + event.id, truth);
+}
+
 void run_reconstruct(const ReconstructOptions& options) {
-  const FitOptions fit_options = to_fit_options(options.fit);
-  PlannedOutput json(options.output.json);
+  const FitOptions fit_options = fit_options_of(options);
+  PlannedOutput json(options.output.json), picture(options.sky_map_picture);
+  std::optional<AtomicFile> map_file;
+  if (options.sky_map) map_file.emplace(*options.sky_map);
   const std::vector<Event> events = read_events(options.files);
+  if (options.sky_map_picture && events.size() != 1)
+    throw UsageError(fmt::format(
+        "--skymap-picture: found {} events; expected one (--skymap writes the maps of many)", events.size()));
   const Model model = load_model(options.model);
   // A bad event is found before the work on others begins.
   for (const Event& event : events) EventData(*model.detector, event, fit_options.selection);
@@ -176,6 +242,10 @@ void run_reconstruct(const ReconstructOptions& options) {
   run.run();
   results["events"] = run.json();
   json.write(json_text(results));
+  const std::vector<SkyMapOfEvent> maps = run.sky_maps();
+  if (!maps.empty()) picture.write(picture_of(events.front(), maps.front().map));
+  if (map_file) write_sky_maps(*map_file, {FLOE_VERSION, model.ice->name(), model.ice->hash()}, maps);
+  picture.commit();
   json.commit();
   run.finish();
   const std::string failures = run.failures();
@@ -191,11 +261,17 @@ void add_reconstruct(CLI::App& floe) {
   add_model_options(app, options->model);
   add_fit_options(app, options->fit);
   add_output_options(app, options->output);
+  app.add_option("--skymap", options->sky_map, "Write maps of -ln L over directions to this file")
+      ->type_name("FILE.h5");
+  app.add_option("--skymap-picture", options->sky_map_picture, "Draw the map, of one event")
+      ->type_name("FILE.svg");
+  app.add_flag("--profile", options->profile, "Intervals of the profile likelihood: errors on both sides");
   app.footer(
       "Examples:\n"
       "  floe reconstruct event.h5\n"
       "  floe reconstruct event.hits.gz --ice my-ice --json fit.json\n"
       "  floe reconstruct event.h5 --hypothesis hadron --threads 2\n"
+      "  floe reconstruct event.h5 --skymap map.h5 --skymap-picture map.svg --profile\n"
       "  floe reconstruct run.h5 --json fits.json --bad 21,30 --noise-rate 500 --charge-cap 300\n"
       "Many events run side by side. With --json each is kept in FILE.rows as soon as it is done,\n"
       "and the same command goes on where a stopped one was.\n"

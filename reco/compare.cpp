@@ -34,11 +34,9 @@ void measure(const std::array<SimulatedLight*, 2>& light, const EventData& data,
       result.fits[i].photons += sample.propagated;
     }
   }
-  result.delta_neg_llh = values[1].neg_llh - values[0].neg_llh;
-  std::vector<double> differences;
-  for (std::size_t k = 0; k < values[0].leave_one_out.size(); ++k)
-    differences.push_back(values[1].leave_one_out[k] - values[0].leave_one_out[k]);
-  result.delta_neg_llh_error = jackknife_error(differences);
+  const Difference worse = difference(values[1], values[0]);
+  result.delta_neg_llh = worse.value;
+  result.delta_neg_llh_error = worse.error;
 }
 
 // Cables and efficiencies may differ: they are part of what is compared.

@@ -38,8 +38,8 @@ struct ModuleTimes {
 }  // namespace
 
 std::vector<std::vector<double>> arrival_edges(const EventData& data, const LocalFrame& frame,
-                                               std::span<const LightSample* const> samples,
-                                               CascadeKind kind) {
+                                               std::span<const LightSample* const> samples, CascadeKind kind,
+                                               double least_expected) {
   const LightCentre& origin = frame.origin();
   std::vector<ModuleTimes> modules;
   std::vector<std::vector<float>> groups(shells * angles);
@@ -71,7 +71,8 @@ std::vector<std::vector<double>> arrival_edges(const EventData& data, const Loca
     const double expected = double(module.after.size()) * data.repeats() / repeats;
     const auto& times = module.after.size() >= enough_hits ? module.after : groups[module.group];
     std::vector<double> edges;
-    if (times.size() >= enough_hits / 4) edges = quantile_edges(times, bins_for(expected));
+    if (times.size() >= enough_hits / 4 && expected >= least_expected)
+      edges = quantile_edges(times, bins_for(expected));
     for (double& edge : edges) edge += module.direct;
     result.push_back(std::move(edges));
   }

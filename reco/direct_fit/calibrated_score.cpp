@@ -1,12 +1,12 @@
 #include "reco/direct_fit/calibrated_score.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <Eigen/QR>
 
 #include <cassert>
 #include <cmath>
+#include <cstdio>
+#include <memory>
 
 #include "reco/direct_fit/goodness_of_fit.h"
 #include "reco/direct_fit/local_fit.h"
@@ -15,66 +15,79 @@ namespace floe {
 namespace {
 
 constexpr int newton_steps = 14, full_steps = 4;
-constexpr double least_share = 0.2;
-constexpr double significant = 3;  // standard deviations
-constexpr double time_step = 1;    // of the numeric derivative in time [ns]
-using Linear = Eigen::Matrix<double, 1 + regression_coordinates, 1>;  // 1 and the five coordinates
-using LinearFit = Eigen::Matrix<double, 7, 1 + regression_coordinates>;
+constexpr double timing_share = 0.3;  // of an error in place that the geometry of times does not follow
+constexpr double bound_position_error = 0.2;  // [m]
+constexpr double time_step = 3;               // of the numeric derivative in time [ns]
 
-Linear linear_terms(const Vector7& p) {
-  Linear x;
-  x << 1, p.head<regression_coordinates>();
+// What the sums' correction is linear in: level of the narrow and of the wide simulations, which differ in
+// oversize, and the five coordinates.
+constexpr int terms = 2 + regression_coordinates;
+using Terms = Eigen::Matrix<double, terms, 1>;
+using TermsFit = Eigen::Matrix<double, 7, terms>;
+using Normal = Eigen::Matrix<double, terms, terms>;
+
+Terms terms_at(const Vector7& p, bool narrow) {
+  Terms x;
+  x << narrow, !narrow, p.head<regression_coordinates>();
   return x;
 }
 
-// One emulator's weights, with what the other one expects of the sums, set right by the simulations that the
-// other was trained on and this one does not know.
+// One emulator's weights, with what the other one expects of the sums, set right by simulations that these
+// weights do not know: the level by the narrow ones, the slopes mostly by the wide ones that taught the
+// other emulator, since they reach further.
 class Fold {
  public:
-  Fold(const EventData& data, const ScoreFold& own, const Emulator& other, double all_repeats)
-      : data_(data), own_(own.emulator), other_(other), samples_(own.fresh) {
+  Fold(const EventData& data, const ScoreFold& own, const ScoreFold& other, double all_repeats,
+       double position_error)
+      : data_(data), own_(own.emulator), other_(other.emulator) {
     set_weights(all_repeats);
-    Design normal = Design::Zero();
-    for (const LightSample* sample : samples_) {
-      places_.push_back(own_.frame().of(light_centre(sample->cascade, own_.settings().kind)));
-      const Linear x = linear_terms(places_.back());
-      normal += sample->repeats * x * x.transpose();
+    for (std::size_t begin = 0, end = 0; begin < own_.bins().size(); begin = end) {
+      while (end < own_.bins().size() && own_.bins()[end].module == own_.bins()[begin].module) ++end;
+      distrust_module(begin, end, position_error);
     }
+    const Matrix7 information = poisson_variance();
+    valley_ = -information.row(5).head<regression_coordinates>().transpose() / information(5, 5);
+    for (const LightSample* sample : own.fresh) add(*sample, true);
+    for (const LightSample* sample : other.training) add(*sample, false);
+    Normal normal = Normal::Zero();
+    for (const Simulation& k : simulations_) normal += k.sample->repeats * k.x * k.x.transpose();
     inverse_normal_ = normal.inverse();
   }
 
   const std::vector<Vector7>& weights() const { return weights_; }
+  double later(const Vector7& p) const { return p(5) - valley_.dot(p.head<regression_coordinates>()); }
+  // Variance of the data's sums from what modules were let float by.
+  const Matrix7& distrust() const { return distrust_; }
   // Of a bin's count about its expectation, with finite simulation and model error, in units of Poisson's.
   double relative_variance(std::size_t bin) const { return relative_variance_[bin]; }
 
   // The simulated sums less the expected ones as a linear function of place and direction, of one event, and
-  // its derivative in time. How much of the slopes is more than noise is up to `keep`.
+  // its mean derivative in time.
   struct Correction {
-    LinearFit fit, by_time;
+    TermsFit fit;
+    Vector7 by_time;
   };
   Correction correction(double later) const {
     return {residual_fit(later),
-            (residual_fit(later + time_step) - residual_fit(later - time_step)) / (2 * time_step)};
+            (mean_residual(later + time_step) - mean_residual(later - time_step)) / (2 * time_step)};
   }
 
-  // Chi-square of the slopes about 0, and of the simulations about their fit.
+  // Chi-square of the narrow simulations about their fit.
   struct Spread {
-    double slopes = 0, scatter = 0;
-    int slope_freedom = 0, scatter_freedom = 0;
+    double square = 0;
+    int freedom = 0;
   };
   Spread spread() const {
-    const LinearFit fit = residual_fit(0);
+    const TermsFit fit = residual_fit(0);
     const Eigen::LDLT<Matrix7> variance(poisson_variance());
     Spread result;
-    for (std::size_t k = 0; k < samples_.size(); ++k) {
-      const Vector7 gap = residual(k, 0) - fit * linear_terms(places_[k]);
-      result.scatter += samples_[k]->repeats * gap.dot(variance.solve(gap));
+    result.freedom = -7;
+    for (const Simulation& k : simulations_) {
+      if (!k.narrow) continue;
+      const Vector7 gap = residual(k, 0) - fit * k.x;
+      result.square += k.sample->repeats * gap.dot(variance.solve(gap));
+      result.freedom += 7;
     }
-    result.scatter_freedom = 7 * (static_cast<int>(samples_.size()) - 1 - regression_coordinates);
-    const auto slopes = fit.rightCols<regression_coordinates>();
-    const auto block = inverse_normal_.bottomRightCorner<regression_coordinates, regression_coordinates>();
-    result.slopes = (variance.solve(slopes) * block.inverse() * slopes.transpose()).trace();
-    result.slope_freedom = 7 * regression_coordinates;
     return result;
   }
 
@@ -83,7 +96,7 @@ class Fold {
     Vector7 gap = Vector7::Zero();
     Matrix7 slope = Matrix7::Zero();  // d (expected sums) / dp
   };
-  Score score(const Vector7& p, const Correction& correction, double keep) const {
+  Score score(const Vector7& p, const Correction& correction) const {
     std::vector<Emulator::Evaluation> values;
     other_.evaluate(p, values);
     const double events = data_.repeats();
@@ -101,27 +114,36 @@ class Fold {
       result.gap += (bin.data - mean) * weights_[i];
       result.slope += mean * weights_[i] * values[i].gradient.transpose();
     }
-    Linear x = linear_terms(p);
-    x.tail<regression_coordinates>() *= keep;
     const double light = events * std::exp(p(6));
-    result.gap -= light * correction.fit * x;
+    const Vector7 level = light * correction.fit * terms_at(p, true);
+    result.gap -= level;
     result.slope.leftCols<regression_coordinates>() +=
-        light * keep * correction.fit.rightCols<regression_coordinates>();
-    result.slope.col(5) += light * correction.by_time * x;
-    result.slope.col(6) += light * correction.fit * x;
+        light *
+        (correction.fit.rightCols<regression_coordinates>() - correction.by_time * valley_.transpose());
+    result.slope.col(5) += light * correction.by_time;
+    result.slope.col(6) += level;
     return result;
   }
 
   // Variance of the expected sums at p from the finite simulations.
-  Matrix7 simulation_variance(const Vector7& p, double keep) const {
-    Linear x = linear_terms(p);
-    x.tail<regression_coordinates>() *= keep;
+  Matrix7 simulation_variance(const Vector7& p) const {
+    const Terms x = terms_at(p, true);
     const double events = data_.repeats() * std::exp(p(6));
     return events * events * x.dot(inverse_normal_ * x) * poisson_variance();
   }
 
  private:
-  using Design = Eigen::Matrix<double, regression_coordinates + 1, regression_coordinates + 1>;
+  struct Simulation {
+    const LightSample* sample;
+    bool narrow;
+    Vector7 place;
+    Terms x;
+  };
+
+  void add(const LightSample& sample, bool narrow) {
+    const Vector7 place = own_.frame().of(light_centre(sample.cascade, own_.settings().kind));
+    simulations_.push_back({&sample, narrow, place, terms_at(place, narrow)});
+  }
 
   // Gradient over variance: of data, finite simulation and model error, relative to Poisson's of the data.
   void set_weights(double all_repeats) {
@@ -137,7 +159,37 @@ class Fold {
       weights_.push_back(bin.left_out    ? Vector7::Zero()
                          : bin.saturated ? values[i].gradient
                                          : Vector7(values[i].gradient / variance));
+      by_time_.push_back(values[i].gradient(5));
     }
+  }
+
+  // The emulator is not exact over the uncertainty of the place: one bright module may fix its time to 0.1
+  // ns, or its light to a per cent, better than anything moved by metres is known to be. Such sums would be
+  // far from linear over the region that matters. So each module's time and brightness are let float by what
+  // the uncertainty of the place leaves open, which takes that much out of the weights (Woodbury's formula).
+  void distrust_module(std::size_t begin, std::size_t end, double position_error) {
+    const Emulator::Bin& first = own_.bins()[begin];
+    if (first.saturated) return;
+    const Vec3 way = data_.detector().modules()[first.module].position - own_.frame().origin().position;
+    const double curved = position_error / soft_distance(way);
+    const Eigen::Vector2d error(timing_share * light_slowness() * position_error, curved * curved);
+    Eigen::Matrix2d known = Eigen::Matrix2d::Zero();
+    Eigen::Matrix<double, 2, 7> sum = Eigen::Matrix<double, 2, 7>::Zero(), left = sum;
+    const auto nuisance = [&](std::size_t i) -> Eigen::Vector2d {
+      return error.cwiseProduct(Eigen::Vector2d(by_time_[i], 1));
+    };
+    for (std::size_t i = begin; i < end; ++i) {
+      if (own_.bins()[i].left_out) continue;
+      known += means_[i] / relative_variance_[i] * nuisance(i) * nuisance(i).transpose();
+      sum += means_[i] * nuisance(i) * weights_[i].transpose();
+    }
+    const Eigen::Matrix<double, 2, 7> part = (Eigen::Matrix2d::Identity() + known).llt().solve(sum);
+    for (std::size_t i = begin; i < end; ++i) {
+      if (own_.bins()[i].left_out) continue;
+      weights_[i] -= part.transpose() * nuisance(i) / relative_variance_[i];
+      left += means_[i] * nuisance(i) * weights_[i].transpose();
+    }
+    distrust_ += left.transpose() * left;
   }
 
   // Of one event of simulation: sums of weights squared times expectation.
@@ -149,12 +201,12 @@ class Fold {
     return sum;
   }
 
-  // Simulated less expected sums of one event, of simulation k arriving `later`.
-  Vector7 residual(std::size_t k, double later) const {
-    const LightSample& sample = *samples_[k];
-    const auto bins = count_bins(data_, sample, sample.cascade.time + later - places_[k](5));
-    Vector7 p = places_[k];
-    p(5) = later;
+  // Simulated less expected sums of one event, of a simulation arriving `later`.
+  Vector7 residual(const Simulation& k, double later) const {
+    const LightSample& sample = *k.sample;
+    Vector7 p = k.place;
+    p(5) = later + valley_.dot(p.head<regression_coordinates>());
+    const auto bins = count_bins(data_, sample, sample.cascade.time + p(5) - k.place(5));
     const double brighter = std::exp(p(6));
     p(6) = 0;
     std::vector<Emulator::Evaluation> values;
@@ -169,48 +221,55 @@ class Fold {
     return sum;
   }
 
-  LinearFit residual_fit(double later) const {
-    LinearFit sum = LinearFit::Zero();
-    for (std::size_t k = 0; k < samples_.size(); ++k)
-      sum += samples_[k]->repeats * residual(k, later) * linear_terms(places_[k]).transpose();
+  TermsFit residual_fit(double later) const {
+    TermsFit sum = TermsFit::Zero();
+    for (const Simulation& k : simulations_) sum += k.sample->repeats * residual(k, later) * k.x.transpose();
     return sum * inverse_normal_;
+  }
+
+  Vector7 mean_residual(double later) const {
+    Vector7 sum = Vector7::Zero();
+    double repeats = 0;
+    for (const Simulation& k : simulations_) {
+      sum += k.sample->repeats * residual(k, later);
+      repeats += k.sample->repeats;
+    }
+    return sum / repeats;
   }
 
   const EventData& data_;
   const Emulator &own_, &other_;
-  std::span<const LightSample* const> samples_;
-  std::vector<Vector7> weights_, places_;
+  Coordinates valley_;  // how the time has to follow place and direction for the sums in time to stay
+  std::vector<Simulation> simulations_;
+  std::vector<Vector7> weights_;
   std::vector<double> means_, relative_variance_;  // of the data
-  Design inverse_normal_;
+  std::vector<double> by_time_;                    // d ln(expectation) / dt
+  Matrix7 distrust_ = Matrix7::Zero();
+  Normal inverse_normal_;
 };
 
 class CalibratedScore {
  public:
-  CalibratedScore(const EventData& data, std::span<const ScoreFold, 2> folds)
+  CalibratedScore(const EventData& data, std::span<const ScoreFold, 2> folds, double position_error)
       : data_(data),
         emulator_(folds[0].emulator),
-        folds_{Fold(data, folds[0], folds[1].emulator, repeats(folds)),
-               Fold(data, folds[1], folds[0].emulator, repeats(folds))} {
+        folds_{Fold(data, folds[0], folds[1], repeats(folds), position_error),
+               Fold(data, folds[1], folds[0], repeats(folds), position_error)} {
     const Fold::Spread a = folds_[0].spread(), b = folds_[1].spread();
-    if (a.scatter_freedom + b.scatter_freedom > 0)
-      dispersion_ = (a.scatter + b.scatter) / (a.scatter_freedom + b.scatter_freedom);
-    // Slopes of the correction that noise alone would make are none (James and Stein).
-    const double freedom = a.slope_freedom + b.slope_freedom, square = (a.slopes + b.slopes) / dispersion_;
-    keep_ = square > freedom + significant * std::sqrt(2 * freedom) ? 1 - freedom / square : 0;
-    set_time(0);
+    if (a.freedom + b.freedom > 0) dispersion_ = (a.square + b.square) / (a.freedom + b.freedom);
+    set_time(Vector7::Zero());
   }
 
   double dispersion() const { return dispersion_; }
-  double keep() const { return keep_; }
 
-  // The correction is that of simulations arriving so much later.
-  void set_time(double later) {
-    for (std::size_t k = 0; k < 2; ++k) corrections_[k] = folds_[k].correction(later);
+  // The correction is that of simulations arriving when they do at p.
+  void set_time(const Vector7& p) {
+    for (std::size_t k = 0; k < 2; ++k) corrections_[k] = folds_[k].correction(folds_[k].later(p));
   }
 
   Fold::Score score(const Vector7& p) const {
-    const Fold::Score a = folds_[0].score(p, corrections_[0], keep_);
-    const Fold::Score b = folds_[1].score(p, corrections_[1], keep_);
+    const Fold::Score a = folds_[0].score(p, corrections_[0]);
+    const Fold::Score b = folds_[1].score(p, corrections_[1]);
     return {0.5 * (a.gap + b.gap), 0.5 * (a.slope + b.slope)};
   }
 
@@ -228,7 +287,21 @@ class CalibratedScore {
                                             : mean + error * error * mean * mean;
       sum += variance * weight * weight.transpose();
     }
-    return sum;
+    return sum + 0.5 * (folds_[0].distrust() + folds_[1].distrust());
+  }
+
+  // Of Poisson counts in the sums at the origin, with such shares of the folds' weights.
+  Matrix7 information(const std::array<double, 2>& shares) const {
+    std::vector<Emulator::Evaluation> values;
+    emulator_.evaluate(Vector7::Zero(), values);
+    Matrix7 variance = Matrix7::Zero(), slope = Matrix7::Zero();
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const Vector7 weight = shares[0] * folds_[0].weights()[i] + shares[1] * folds_[1].weights()[i];
+      variance += data_.repeats() * std::exp(values[i].log_mean) * weight * weight.transpose();
+    }
+    for (std::size_t k = 0; k < 2; ++k)
+      if (shares[k] > 0) slope += shares[k] * folds_[k].score(Vector7::Zero(), corrections_[k]).slope;
+    return slope.transpose() * variance.ldlt().solve(slope);
   }
 
   // The slopes if the weights were perfect: what all sums' variance is for them.
@@ -249,8 +322,7 @@ class CalibratedScore {
   }
 
   Matrix7 simulation_variance(const Vector7& p) const {
-    return 0.25 * dispersion_ *
-           (folds_[0].simulation_variance(p, keep_) + folds_[1].simulation_variance(p, keep_));
+    return 0.25 * dispersion_ * (folds_[0].simulation_variance(p) + folds_[1].simulation_variance(p));
   }
 
  private:
@@ -265,21 +337,8 @@ class CalibratedScore {
   const Emulator& emulator_;
   std::array<Fold, 2> folds_;
   std::array<Fold::Correction, 2> corrections_;
-  double dispersion_ = 1, keep_ = 1;
+  double dispersion_ = 1;
 };
-
-// The slopes as they can be: symmetric, and in no direction more than the variance of the sums, which they
-// equal for perfect weights (the information inequality). Where noise leaves less than `least_share` of it,
-// that much is assumed.
-Matrix7 possible_slopes(const Matrix7& slope, const Matrix7& variance) {
-  if (!slope.allFinite() || !variance.allFinite()) return Matrix7::Constant(std::nan(""));
-  const Matrix7 half = 0.5 * (slope + slope.transpose());
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix7> solver(half, variance);
-  if (solver.info() != Eigen::Success) return Matrix7::Constant(std::nan(""));
-  const Vector7 share = solver.eigenvalues().cwiseMax(least_share).cwiseMin(1);
-  const Matrix7 inverse = solver.eigenvectors().transpose() * variance;
-  return inverse.transpose() * share.asDiagonal() * inverse;
-}
 
 Matrix7 sandwich(const Matrix7& slope, const Matrix7& variance) {
   const Matrix7 inverse = slope.inverse();
@@ -288,8 +347,9 @@ Matrix7 sandwich(const Matrix7& slope, const Matrix7& variance) {
 
 }  // namespace
 
-ScoreSolution solve_calibrated_score(const EventData& data, std::span<const ScoreFold, 2> folds) {
-  CalibratedScore score(data, folds);
+ScoreSolution solve_calibrated_score(const EventData& data, std::span<const ScoreFold, 2> folds,
+                                     double position_error) {
+  CalibratedScore score(data, folds, position_error);
   ScoreSolution solution;
   solution.dispersion = score.dispersion();
   const Vector7 most = trust_region(folds[0].emulator.settings());
@@ -298,10 +358,10 @@ ScoreSolution solve_calibrated_score(const EventData& data, std::span<const Scor
   Matrix7 slope;
   double change_square = 0;
   for (int i = 0; i < newton_steps && !solution.converged; ++i) {
-    slope = possible_slopes(now.slope, best);
+    slope = now.slope;
     if (!slope.allFinite()) return solution;
-    Vector7 change = slope.ldlt().solve(now.gap);
-    change_square = change.dot(slope * change);
+    Vector7 change = slope.partialPivLu().solve(now.gap);
+    change_square = change.dot(best * change);
     if (i >= full_steps) change *= 0.5;  // simulated photons cross the edges of bins one by one
     const Vector7 next = solution.step + change;
     const double length = next.cwiseAbs().cwiseQuotient(most).maxCoeff();
@@ -310,7 +370,7 @@ ScoreSolution solve_calibrated_score(const EventData& data, std::span<const Scor
       solution.leaves = true;
       break;
     }
-    score.set_time(solution.step(5));
+    score.set_time(solution.step);
     now = score.score(solution.step);
     solution.converged = length <= 1 && change_square < 0.01;
   }
@@ -322,10 +382,28 @@ ScoreSolution solve_calibrated_score(const EventData& data, std::span<const Scor
   return solution;
 }
 
+ScoreLikelihood score_likelihood(const EventData& data, std::span<const ScoreFold, 2> folds,
+                                 const ScoreSolution& solution, double position_error) {
+  const auto score = std::make_shared<CalibratedScore>(data, folds, position_error);
+  score->set_time(solution.step);
+  const Matrix7 variance = score->data_variance(solution.step) + score->simulation_variance(solution.step);
+  const Matrix7 whitening = variance.llt().matrixL().solve(Matrix7::Identity());
+  const Vector7 left = score->score(solution.step).gap;  // by the last Newton step
+  const auto at = [score, whitening, left](const Vector7& p) {
+    const Fold::Score there = score->score(p);
+    return ScoreLikelihood::Point{whitening * (left - there.gap), whitening * there.slope};
+  };
+  const Emulator& emulator = folds[0].emulator;
+  return {at, emulator.frame(), solution.step, solution.covariance, trust_region(emulator.settings())};
+}
+
 Matrix7 cramer_rao_bound(const EventData& data, std::span<const ScoreFold, 2> folds) {
-  const CalibratedScore score(data, folds);
-  const Vector7 here = Vector7::Zero();
-  return sandwich(possible_slopes(score.score(here).slope, score.best_slopes()), score.data_variance(here));
+  const CalibratedScore score(data, folds, bound_position_error);
+  const Matrix7 both = score.information({0.5, 0.5});
+  const Matrix7 one = 0.5 * (score.information({1, 0}) + score.information({0, 1}));
+  const Matrix7 extrapolated = 2 * both - one;
+  const bool possible = extrapolated.llt().info() == Eigen::Success;
+  return covariance_of(possible ? extrapolated : both);
 }
 
 }  // namespace floe

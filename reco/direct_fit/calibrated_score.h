@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "reco/direct_fit/emulator.h"
+#include "reco/direct_fit/score_likelihood.h"
 
 namespace floe {
 
@@ -17,8 +18,9 @@ namespace floe {
 // the weights a little less than optimal. Two folds (each emulator against the other's simulations) use
 // every simulation for both ends.
 struct ScoreFold {
-  Emulator emulator;                      // the other fold's must not share its simulations
-  std::vector<const LightSample*> fresh;  // near the origin, unknown to `emulator`; at least 7
+  Emulator emulator;
+  std::vector<const LightSample*> training;  // what the emulator learnt from; not shared with the other fold
+  std::vector<const LightSample*> fresh;     // near the origin, unknown to both emulators
 };
 
 struct ScoreSolution {
@@ -32,13 +34,19 @@ struct ScoreSolution {
   bool leaves = false;  // the solution lies outside the trusted region; step leads to its edge
 };
 
-// Both emulators have the same origin, bins and settings; all must outlive the call.
-ScoreSolution solve_calibrated_score(const EventData& data, std::span<const ScoreFold, 2> folds);
+// Both emulators have the same origin, bins and settings; all must outlive the call. `position_error` [m]:
+// how well the place is known by now.
+ScoreSolution solve_calibrated_score(const EventData& data, std::span<const ScoreFold, 2> folds,
+                                     double position_error);
+
+// What the sums say around a solution that converged; `data` and `folds` must outlive it.
+ScoreLikelihood score_likelihood(const EventData& data, std::span<const ScoreFold, 2> folds,
+                                 const ScoreSolution& solution, double position_error);
 
 // The least covariance that any unbiased estimate of the local numbers can have, at the emulators' origin,
 // when data are Poisson counts about the expectation (Cramer-Rao), from the information in the calibrated
-// score. As the score's weights are noisy, this is an upper limit of the bound that falls to it with more
-// simulations.
+// score. Noise in the weights loses information in proportion to 1/photons: the loss is read off the
+// difference between one fold's weights and both folds' and taken out.
 Matrix7 cramer_rao_bound(const EventData& data, std::span<const ScoreFold, 2> folds);
 
 }  // namespace floe

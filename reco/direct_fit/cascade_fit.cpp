@@ -27,7 +27,8 @@ void check(const FitOptions& o) {
   need(o.oversize >= 1 && o.oversize <= 100, "oversize must be 1 to 100");
   need(o.model_error >= 0 && o.model_error <= 2, "model error must be 0 to 2");
   need(std::isfinite(o.effort) && o.effort > 0, "effort must be above 0");
-  need(o.max_rounds >= 1, "at least one round is needed");
+  need(o.sky_map_pixels == 0 || (o.sky_map_pixels >= 3 && o.sky_map_pixels % 2 == 1),
+       "pixels of a sky map must be 0, or odd from 3 on");
   need(o.threads >= 0, "the number of threads must not be negative");
   need(!o.start || (o.start->energy > 0 && to_vector(*o.start).allFinite()), "the start must be a cascade");
 }
@@ -62,12 +63,11 @@ ArrivalTimes arrival_times(const EventData& data, const ModuleData& lit, const E
   return result;
 }
 
-void measure_goodness(const EventData& data, const Evaluation& evaluation, const FitOptions& options,
-                      CascadeFit& fit) {
+void measure_goodness(const Evaluation& evaluation, const FitOptions& options, CascadeFit& fit) {
+  fit.bins = evaluation.bins.size();
   fit.neg_llh = evaluation.neg_llh;
   fit.neg_llh_error = jackknife_error(evaluation.leave_one_out);
-  const PseudoLikelihood pseudo = draw_pseudo_data(data, evaluation, fit.cascade.time, options.model_error,
-                                                   options.seed, options.threads);
+  const PseudoLikelihood pseudo = draw_pseudo_data(evaluation.bins, options.model_error, options.seed);
   fit.ndof = 2 * pseudo.mean - 7;
   fit.p_value = 0.5 * std::erfc((fit.neg_llh - 0.5 * fit.ndof) / (pseudo.spread * std::sqrt(2.0)));
 }
@@ -95,6 +95,16 @@ void judge(const Search::End& end, const EventData& data, const TrackTest& track
   }
 }
 
+// What only some users ask for.
+void look_around(const Search& search, const FitOptions& options, CascadeFit& fit) {
+  if (options.sky_map_pixels == 0 && !options.profile) return;
+  const std::optional<ScoreLikelihood> likelihood = search.likelihood();
+  if (!likelihood) return;
+  if (options.sky_map_pixels > 0)
+    fit.sky_map = make_sky_map(*likelihood, options.sky_map_pixels, options.threads);
+  if (options.profile) fit.profile = profile_intervals(*likelihood, options.kind);
+}
+
 void find_result(ExpectationModel& light, const EventData& data, const FitOptions& options, CascadeFit& fit,
                  const Progress& progress) {
   const MeanIce ice(*light.model().ice);
@@ -108,13 +118,15 @@ void find_result(ExpectationModel& light, const EventData& data, const FitOption
   fit.covariance = jacobian * end.covariance * jacobian.transpose();
 
   judge(end, data, track, fit);
+  look_around(search, options, fit);
   if (!options.goodness) return;
   if (progress) progress(0.92, "measuring the fit");
   const double photons = search.useful_photons(fit.cascade, options.oversize, 3, 4e6, 1.2e7);
-  const Evaluation evaluation = evaluate_cascade(light, data, fit.cascade, photons, options.oversize,
-                                                 evaluations, evaluation_stream, options.model_error);
+  const Evaluation evaluation =
+      evaluate_cascade(light, end.edges.empty() ? data : data.with_edges(end.edges), fit.cascade, photons,
+                       options.oversize, evaluations, evaluation_stream, options.model_error);
   for (const LightSample& sample : evaluation.samples) ++fit.simulations, fit.photons += sample.propagated;
-  measure_goodness(data, evaluation, options, fit);
+  measure_goodness(evaluation, options, fit);
   for (const std::size_t i : data.brightest(pictured_modules))
     fit.arrival_times.push_back(arrival_times(data, data.lit()[i], evaluation, fit.cascade.time));
 }
@@ -192,6 +204,8 @@ std::string describe(const CascadeFit& fit) {
       std::snprintf(line, sizeof line, "  %-8s %10.*f +- ? %s\n", names[i], digits, value(i), units[i]);
     text += line;
   }
+  if (fit.profile) text += describe(*fit.profile);
+  if (fit.sky_map) text += describe(*fit.sky_map);
   char line[200];
   std::snprintf(line, sizeof line,
                 "  -ln L %.1f +- %.1f (pseudo-data: %.1f), p = %.3g; %zu simulations, %.3g photons, %.0f s\n",

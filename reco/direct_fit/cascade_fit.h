@@ -13,6 +13,8 @@
 #include "propagation/model.h"
 #include "reco/data_selection.h"
 #include "reco/direct_fit/cascade_parameters.h"
+#include "reco/direct_fit/profile.h"
+#include "reco/direct_fit/sky_map.h"
 
 namespace floe {
 
@@ -24,12 +26,16 @@ struct FitOptions {
   CascadeKind kind = CascadeKind::electron;
   double oversize = 5;       // of the modules in the last rounds, 1-100; that of the data if simulated
   double model_error = 0.1;  // sigma of the log-normal error of every bin's expectation; >= 0
-  DataSelection selection;   // modules and times left out, dark noise, saturation
+  // Whether the data were simulated with modules that wide, too: then one photon may be seen more than once,
+  // and counts scatter more than Poisson's by as much as the simulations show.
+  bool data_widened = false;
+  DataSelection selection;  // modules and times left out, dark noise, saturation
   std::uint64_t seed = 1;
-  int threads = 0;       // 0: all cores; the result does not depend on it
-  double effort = 1;     // multiplies the number of photons; > 0
-  int max_rounds = 20;   // of the local fit before it is said not to converge
-  bool goodness = true;  // simulate the result again: -ln L, p-value and arrival times
+  int threads = 0;         // 0: all cores; the result does not depend on it
+  double effort = 1;       // multiplies the number of photons; > 0
+  bool goodness = true;    // simulate the result again: -ln L, p-value and arrival times
+  int sky_map_pixels = 0;  // a side, odd; 0: no map
+  bool profile = false;    // intervals from the profile likelihood
   // Where to begin; nothing: found from the data.
   std::optional<CascadeParameters> start;
 };
@@ -62,6 +68,13 @@ struct FitRound {
   double pull = 0;  // length of the step in units of its error
 };
 
+// A minimum elsewhere that the search could not tell from the best one: `worse` in -ln L, from equal
+// simulations of both.
+struct OtherMinimum {
+  CascadeParameters cascade;
+  double delta_neg_llh = 0, delta_neg_llh_error = 0;
+};
+
 struct CascadeFit {
   FitStatus status = FitStatus::not_enough_light;
   std::string reason;  // in words, for every status but ok
@@ -72,6 +85,12 @@ struct CascadeFit {
   // x, y, z [m], time [ns], zenith, azimuth [rad], energy [GeV]: statistical error of data and
   // simulation together with the model error.
   Matrix7 covariance = Matrix7::Constant(std::numeric_limits<double>::quiet_NaN());
+
+  // When they were asked for, and the fit ended with the calibrated score.
+  std::optional<SkyMap> sky_map;
+  std::optional<ProfileIntervals> profile;
+
+  std::optional<OtherMinimum> other_minimum;  // that competes with this one
 
   // Saturated negative log-likelihood (0: perfect match) of simulations of the fitted cascade, and its error
   // from their finite number (jackknife over independent simulations).

@@ -23,6 +23,7 @@ Emulator::Emulator(const EventData& data, const MeanIce& ice, const LightCentre&
     for (std::size_t b = 0; b < module.bin_count(); ++b) {
       const Regression& fit = module.bins[b];
       Bin bin;
+      bin.module = module.index;
       bin.effective_counts = 1 / (fit.covariance(0, 0) + std::min(fit.excess_variance, most_variance));
       bin.noise = module.data ? module.data->noise[b] : data.dark_noise(module.index);
       if (module.data) {

@@ -2,6 +2,7 @@
 // fit of seven parameters work with some dozens of simulations. Theory: docs/theory/direct_fit.md.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -35,6 +36,7 @@ class Emulator {
     bool saturated = false;  // `data` is what there is at least
     bool left_out = false;
     double effective_counts = 0;  // the simulation's size: 1 / variance of ln mu
+    std::uint32_t module = 0;     // bins of one module follow each other
   };
 
   // `samples`: at least one, near `origin`. `data` must outlive the emulator.

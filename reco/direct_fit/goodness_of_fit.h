@@ -22,7 +22,8 @@ double neg_llh(std::span<const BinOfData> bins, double model_error);
 // A cascade measured with independent simulations of itself.
 struct Evaluation {
   std::vector<LightSample> samples;
-  double neg_llh = 0;                 // of all simulations together
+  std::vector<BinOfData> bins;        // of all simulations together
+  double neg_llh = 0;                 // of these
   std::vector<double> leave_one_out;  // with all but one
 };
 // Error of a value from what it becomes without each of its parts: the jackknife.
@@ -32,14 +33,20 @@ Evaluation evaluate_cascade(ExpectationModel& light, const EventData& data, cons
                             double photons, double oversize, int repeats, std::uint64_t stream,
                             double model_error);
 
+// Of -ln L, a - b, for the same data and equal simulations; error: jackknife over the parts.
+struct Difference {
+  double value = 0, error = 0;
+};
+Difference difference(const Evaluation& a, const Evaluation& b);
+
 struct PseudoLikelihood {
   double mean = 0, spread = 0;
 };
-// What evaluate_cascade would find for events that are as the cascade simulated in `evaluation`, with the
-// log-normal model error in every bin: draws data and simulations, and bins the data by their own Bayesian
-// blocks as was done with the measured ones, since bins that follow fluctuations see more of them. Small
-// counts are treated as what they are, where chi-square theory fails. `vertex_time` is that of the fit.
-PseudoLikelihood draw_pseudo_data(const EventData& data, const Evaluation& evaluation, double vertex_time,
-                                  double model_error, std::uint64_t seed, int threads, int draws = 30);
+// What -ln L would be if data and simulation had the same expectation in every bin, give or take the
+// log-normal model error: the counts of both together are dealt out again at random, in the ratio of their
+// events. Given the sum, that distribution is exact for any expectation, bright or dim. Edges of the bins
+// must follow neither the data nor this simulation. Saturated bins keep their value.
+PseudoLikelihood draw_pseudo_data(std::span<const BinOfData> bins, double model_error, std::uint64_t seed,
+                                  int draws = 60);
 
 }  // namespace floe

@@ -12,7 +12,7 @@ namespace floe {
 namespace {
 
 constexpr double position_step = 5, direction_step = 8 * degree;  // as the fit's
-constexpr double narrow_step = 0.5, narrow_turn = 1 * degree;
+constexpr double narrow_step = 1.5, narrow_turn = 3 * degree;
 
 using Samples = std::vector<std::unique_ptr<LightSample>>;
 
@@ -54,11 +54,11 @@ Matrix7 cramer_rao_bound(ExpectationModel& light, const CascadeParameters& truth
   const LocalFrame frame(centre);
   const double wide = training_oversize(options.oversize);
   const Samples training[2] = {
-      simulate(light, frame, options, {position_step, direction_step, wide, 40, 1e7, 1}),
-      simulate(light, frame, options, {position_step, direction_step, wide, 40, 1e7, 2})};
+      simulate(light, frame, options, {position_step, direction_step, wide, 40, 6e6, 1}),
+      simulate(light, frame, options, {position_step, direction_step, wide, 40, 6e6, 2})};
   const Samples narrow[2] = {
-      simulate(light, frame, options, {narrow_step, narrow_turn, options.oversize, 2, 1e7, 3}),
-      simulate(light, frame, options, {narrow_step, narrow_turn, options.oversize, 2, 1e7, 4})};
+      simulate(light, frame, options, {narrow_step, narrow_turn, options.oversize, 2, 4e6, 3}),
+      simulate(light, frame, options, {narrow_step, narrow_turn, options.oversize, 2, 4e6, 4})};
   std::vector<const LightSample*> fresh[2] = {pointers(narrow[0]), pointers(narrow[1])}, all = fresh[0];
   all.insert(all.end(), fresh[1].begin(), fresh[1].end());
 
@@ -71,8 +71,9 @@ Matrix7 cramer_rao_bound(ExpectationModel& light, const CascadeParameters& truth
   settings.position_step = position_step;
   settings.direction_step = direction_step;
   settings.threads = options.threads;
-  const ScoreFold folds[2] = {{Emulator(data, ice, centre, pointers(training[0]), settings), fresh[0]},
-                              {Emulator(data, ice, centre, pointers(training[1]), settings), fresh[1]}};
+  const std::vector<const LightSample*> taught[2] = {pointers(training[0]), pointers(training[1])};
+  const ScoreFold folds[2] = {{Emulator(data, ice, centre, taught[0], settings), taught[0], fresh[0]},
+                              {Emulator(data, ice, centre, taught[1], settings), taught[1], fresh[1]}};
   const Matrix7 jacobian = frame.jacobian(Vector7::Zero(), options.kind);
   return jacobian * cramer_rao_bound(data, folds) * jacobian.transpose();
 }

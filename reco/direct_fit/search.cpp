@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "reco/direct_fit/arrival_bins.h"
-#include "reco/direct_fit/calibrated_score.h"
 #include "reco/direct_fit/design.h"
 
 namespace floe {
@@ -15,15 +14,28 @@ namespace {
 constexpr double scan_share = 0.15;   // of the progress bar
 constexpr double usual_rounds = 9;    // of a fit, for the progress bar
 constexpr double charge_per_gev = 2;  // of a contained cascade, roughly [photoelectrons]
-constexpr int most_fine_rounds = 2, most_calibrations = 4;
+constexpr int most_coarse_rounds = 3, most_rough_rounds = 8, most_fine_rounds = 2, most_calibrations = 4;
 constexpr int most_rounds_without_score = 5;
 constexpr double acceptable_pull = 1.5;  // of the last step of all
 constexpr double usual_pull = 1.5;       // of a step that noise makes: the largest of seven
 constexpr double least_training_step =
     5;  // weights need not be exact, and are less noisy from a wide region [m]
 constexpr double least_training_turn = 8 * degree;
-constexpr double design_reach = 2.4;             // how far simulations are used, in steps from the origin
+constexpr double design_reach = 2.4;  // how far simulations are used, in steps from the origin
+// [photoelectrons] expected: hardly any module stays dark.
+constexpr double surely_seen = 4;
 constexpr double other_direction = 50 * degree;  // apart: worth following both
+constexpr std::size_t most_starts = 3;
+constexpr double notable_share = 0.02;                     // of all charge, for a module to limit steps
+constexpr double step_share = 0.3, least_widest_step = 2;  // [m]
+// Two ends so close together are one minimum.
+constexpr double same_place = 8, same_direction = 25 * degree;  // [m]
+// A minimum so much worse in -ln L, by this many errors as well, is left behind.
+constexpr double hopeless = 8, hopeless_errors = 3;
+// And one that is not even so much worse competes with the best.
+constexpr double competing = 3, competing_errors = 1;
+constexpr int contest_parts = 4;  // independent simulations of each minimum
+constexpr std::uint64_t contest_stream = std::uint64_t{1} << 41;
 
 std::string words(const CascadeParameters& c) {
   char text[160];
@@ -128,35 +140,81 @@ Search::RoundEnd Search::settle(LightCentre origin, Stage stage, int most, bool 
   return end;
 }
 
-LightCentre Search::best_of_two(const std::vector<SeedCandidate>& candidates) {
-  const double oversize = training_oversize(options_.oversize);
-  const CascadeParameters best = cascade_of(candidates.front().light, options_.kind);
-  const Stage stage{15, 25 * degree, oversize, useful_photons(best, oversize, 1, 4e5, 2e6)};
-  const RoundEnd first = settle(candidates.front().light, stage, 3, false);
-  for (const SeedCandidate& other : candidates) {
-    if (other.light.direction.dot(candidates.front().light.direction) > std::cos(other_direction)) continue;
-    const RoundEnd second = settle(other.light, stage, 2, false);
-    return (second.fit.neg_llh < first.fit.neg_llh ? second : first).light;
+Search::Minima Search::contest(std::span<const LightCentre> starts, Stage stage, int most_rounds,
+                               bool follow_light) {
+  Minima minima;
+  for (const LightCentre& start : starts) {
+    Minimum minimum{settle(start, stage, most_rounds, follow_light), {}};
+    const LightCentre& light = minimum.end.light;
+    const bool known = std::any_of(minima.begin(), minima.end(), [&](const Minimum& other) {
+      return (other.end.light.position - light.position).norm() < same_place &&
+             other.end.light.direction.dot(light.direction) > std::cos(same_direction);
+    });
+    if (!known) minima.push_back(std::move(minimum));
   }
-  return first.light;
+  if (minima.size() < 2) return minima;
+  // Equal photons and random numbers for all.
+  const double photons =
+      useful_photons(cascade_of(minima.front().end.light, options_.kind), stage.oversize, 3, 2e5, 1e6);
+  for (Minimum& minimum : minima) {
+    minimum.value =
+        evaluate_cascade(light_, data_, cascade_of(minimum.end.light, options_.kind), photons, stage.oversize,
+                         contest_parts, contest_stream + 100 * contests_, options_.model_error);
+    for (const LightSample& sample : minimum.value.samples)
+      ++result_.simulations, result_.photons += sample.propagated;
+    minimum.value.samples.clear();
+  }
+  ++contests_;
+  std::sort(minima.begin(), minima.end(),
+            [](const Minimum& a, const Minimum& b) { return a.value.neg_llh < b.value.neg_llh; });
+  std::erase_if(minima, [&](const Minimum& minimum) {
+    const Difference worse = difference(minimum.value, minima.front().value);
+    return worse.value > hopeless + hopeless_errors * worse.error;
+  });
+  return minima;
 }
 
-Search::End Search::refine(const LightCentre& start) {
-  const double coarse = training_oversize(options_.oversize);
-  const CascadeParameters begin = cascade_of(start, options_.kind);
-  const RoundEnd rough =
-      settle(start, {8, 15 * degree, coarse, useful_photons(begin, coarse, 3, 6e5, 3e6)}, 8, true);
+// Light changes within a fraction of the way to a module: steps must not be wider.
+double Search::widest_step(const LightCentre& light) const {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const ModuleData& lit : data_.lit())
+    if (lit.charge > notable_share * data_.charge())
+      nearest = std::min(nearest, (data_.detector().modules()[lit.module].position - light.position).norm());
+  return std::clamp(step_share * nearest, least_widest_step, 10.0);
+}
 
+Stage Search::rough_stage(const LightCentre& light) {
+  const double coarse = training_oversize(options_.oversize);
+  return {std::min(8.0, widest_step(light)), 15 * degree, coarse,
+          useful_photons(cascade_of(light, options_.kind), coarse, 3, 6e5, 3e6)};
+}
+
+// On from the minima that are left: the best of them makes the result.
+Search::End Search::follow(Minima minima) {
+  std::vector<LightCentre> starts;
+  for (const Minimum& minimum : minima) starts.push_back(minimum.end.light);
+  minima = contest(starts, rough_stage(starts.front()), most_rough_rounds, true);
+  if (minima.size() > 1) {
+    const Difference worse = difference(minima[1].value, minima[0].value);
+    if (worse.value < competing + competing_errors * worse.error)
+      result_.other_minimum =
+          OtherMinimum{cascade_of(minima[1].end.light, options_.kind), worse.value, worse.error};
+  }
+  return refine(minima.front().end);
+}
+
+Search::End Search::refine(const RoundEnd& rough) {
   End end;
   end.light = rough.light;
   Stage stage;
   Vector7 errors = rough.errors;
   bool last_one_moved = true;
   for (int fine = 0; fine == 0 || (last_one_moved && fine < most_fine_rounds); ++fine) {
-    stage.position_step = std::clamp(2 * errors.head<3>().norm(), 3.0, 10.0);
+    const double widest = widest_step(end.light);
+    stage.position_step = std::clamp(2 * errors.head<3>().norm(), std::min(3.0, widest), widest);
     stage.direction_step = std::clamp(2 * errors.segment<2>(3).norm(), 4 * degree, 18 * degree);
     stage.oversize = options_.oversize;
-    stage.photons = useful_photons(cascade_of(end.light, options_.kind), stage.oversize, 3, 1e6, 1e7);
+    stage.photons = useful_photons(cascade_of(end.light, options_.kind), stage.oversize, 3, 1e6, 5e6);
     const RoundEnd now = round(end.light, stage, true);
     if (!now.errors.allFinite()) break;  // too little light for narrow steps: the wider ones have to do
     end.light = now.light;
@@ -189,7 +247,8 @@ void Search::calibrate(End& end, const Vector7& errors) {
   const LocalFrame frame(end.light);
   const CascadeParameters here = cascade_of(end.light, options_.kind);
   const double distance = errors.head<3>().norm(), angle = errors.segment<2>(3).norm();
-  Stage wide{std::clamp(2 * distance, least_training_step, 10.0),
+  const double widest = widest_step(end.light);
+  Stage wide{std::clamp(2 * distance, std::min(least_training_step, widest), widest),
              std::clamp(2 * angle, least_training_turn, 18 * degree), training_oversize(options_.oversize),
              0};
   wide.photons = useful_photons(here, wide.oversize, 30, 1e6, 1e7);
@@ -209,10 +268,15 @@ void Search::calibrate(End& end, const Vector7& errors) {
     add(narrow, fresh[fold]);
     all.insert(all.end(), fresh[fold].begin(), fresh[fold].end());
   }
-  const EventData data = data_.with_edges(arrival_edges(data_, frame, all, options_.kind));
-  const ScoreFold folds[2] = {{emulate(data, end.light, wide, training[0]), fresh[0]},
-                              {emulate(data, end.light, wide, training[1]), fresh[1]}};
-  const ScoreSolution solution = solve_calibrated_score(data, folds);
+  end.edges = arrival_edges(data_, frame, all, options_.kind, surely_seen);
+  calibration_ = std::make_unique<Calibration>(
+      Calibration{data_.with_edges(arrival_edges(data_, frame, all, options_.kind)), distance, {}, {}});
+  auto& folds = calibration_->folds;
+  for (int fold = 0; fold < 2; ++fold)
+    folds.push_back(
+        {emulate(calibration_->data, end.light, wide, training[fold]), training[fold], fresh[fold]});
+  const ScoreSolution& solution = calibration_->solution =
+      solve_calibrated_score(calibration_->data, std::span<const ScoreFold, 2>(folds), distance);
   if (!solution.converged && !solution.leaves) {
     end.unsolved = true;
     end.covariance.setConstant(std::numeric_limits<double>::infinity());
@@ -220,6 +284,8 @@ void Search::calibrate(End& end, const Vector7& errors) {
   }
   end.light = frame.at(solution.step);
   end.covariance = solution.covariance;
+  if (options_.data_widened)
+    end.covariance += std::max(0.0, solution.dispersion - 1) * solution.data_covariance;
   const Vector7 found = solution.covariance.diagonal().cwiseSqrt();
   end.pull = solution.step.cwiseAbs().cwiseQuotient(found).maxCoeff();
   const bool inside = solution.step.head<3>().norm() < design_reach * narrow.position_step &&
@@ -229,8 +295,15 @@ void Search::calibrate(End& end, const Vector7& errors) {
                             narrow.position_step, narrow.direction_step, narrow.oversize, end.pull});
 }
 
+std::optional<ScoreLikelihood> Search::likelihood() const {
+  if (!calibration_ || !calibration_->solution.converged) return std::nullopt;
+  return score_likelihood(calibration_->data, std::span<const ScoreFold, 2>(calibration_->folds),
+                          calibration_->solution, calibration_->position_error);
+}
+
 Search::End Search::from(const CascadeParameters& start) {
-  return refine(light_centre(start, options_.kind));
+  const LightCentre light = light_centre(start, options_.kind);
+  return refine(settle(light, rough_stage(light), most_rough_rounds, true));
 }
 
 Search::End Search::from_scratch(const PointSeed& point) {
@@ -247,7 +320,17 @@ Search::End Search::from_scratch(const PointSeed& point) {
   });
   result_.simulations += candidates.size();
   result_.photons += static_cast<std::uint64_t>(scan.photons * double(candidates.size()));
-  return refine(best_of_two(candidates));
+  std::vector<LightCentre> starts;
+  for (const SeedCandidate& candidate : candidates) {
+    const bool other = std::all_of(starts.begin(), starts.end(), [&](const LightCentre& start) {
+      return start.direction.dot(candidate.light.direction) < std::cos(other_direction);
+    });
+    if (other && starts.size() < most_starts) starts.push_back(candidate.light);
+  }
+  const double oversize = training_oversize(options_.oversize);
+  const CascadeParameters best = cascade_of(starts.front(), options_.kind);
+  return follow(contest(starts, {15, 25 * degree, oversize, useful_photons(best, oversize, 1, 4e5, 2e6)},
+                        most_coarse_rounds, false));
 }
 
 }  // namespace floe

@@ -3,12 +3,15 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "reco/direct_fit/calibrated_score.h"
 #include "reco/direct_fit/cascade_fit.h"
 #include "reco/direct_fit/expectation_model.h"
+#include "reco/direct_fit/goodness_of_fit.h"
 #include "reco/direct_fit/local_fit.h"
 #include "reco/direct_fit/point_light.h"
 #include "reco/direct_fit/seed.h"
@@ -40,7 +43,10 @@ class Search {
     double pull = std::numeric_limits<double>::infinity();  // largest last step in units of its error
     bool unsolved = false;                                  // the calibrated score has no solution
     std::string trouble;                                    // in words, when it did not converge
+    std::vector<std::vector<double>> edges;  // of time bins that follow the light there; see arrival_edges
   };
+  // When the calibrated score has a solution: the likelihood around it. The search must outlive it.
+  std::optional<ScoreLikelihood> likelihood() const;
   End from_scratch(const PointSeed& point);
   End from(const CascadeParameters& start);
 
@@ -67,9 +73,20 @@ class Search {
                    std::span<const LightSample* const> samples) const;
   static bool has_settled(const RoundEnd& end, const Stage& stage);
   RoundEnd settle(LightCentre origin, Stage stage, int most, bool follow_light);
-  End refine(const LightCentre& light);
+  End refine(const RoundEnd& rough);
   void calibrate(End& end, const Vector7& errors);
-  LightCentre best_of_two(const std::vector<SeedCandidate>& candidates);
+  // A minimum on the way, measured by fresh simulations.
+  struct Minimum {
+    RoundEnd end;
+    Evaluation value;
+  };
+  using Minima = std::vector<Minimum>;
+  // Settles from each start and sorts the ends by what fresh simulations say, best first; ends that came
+  // together count once, and hopeless ones are left behind.
+  Minima contest(std::span<const LightCentre> starts, Stage stage, int most_rounds, bool follow_light);
+  End follow(Minima minima);
+  Stage rough_stage(const LightCentre& light);
+  double widest_step(const LightCentre& light) const;
   void report(double within_round, const std::string& what);
 
   ExpectationModel& light_;
@@ -83,7 +100,15 @@ class Search {
     std::uint64_t draw;  // of the design
   };
   std::vector<std::unique_ptr<Simulation>> simulations_;
-  std::uint64_t stream_ = 0, draws_ = 0;
+  // The last calibration, kept for who wants to know more than its solution.
+  struct Calibration {
+    EventData data;
+    double position_error;
+    std::vector<ScoreFold> folds;  // two; they refer to `data`
+    ScoreSolution solution;
+  };
+  std::unique_ptr<Calibration> calibration_;
+  std::uint64_t stream_ = 0, draws_ = 0, contests_ = 0;
 };
 
 }  // namespace floe

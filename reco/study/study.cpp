@@ -95,6 +95,7 @@ StudyRow study_event(const StudySettings& settings, const StudyGroup& group, int
   options.oversize = group.oversize;
   options.seed = settings.seed * 1000003 + key_of(group.energy, index);
   options.threads = threads;
+  options.data_widened = true;
   options.goodness = false;  // the study judges results by their truth
   if (settings.other) {
     const ModelComparison comparison = compare_models(settings.truth, *settings.other, event, options);
