@@ -189,6 +189,18 @@ Json fit_json(const CascadeFit& fit) {
   }
   if (fit.sky_map) json["sky_map"] = areas_json(*fit.sky_map);
   if (fit.profile) json["profile"] = profile_json(*fit.profile);
+  if (fit.other_minimum) {
+    const CascadeParameters& other = fit.other_minimum->cascade;
+    json["other_minimum"] = {{"x", other.position.x()},
+                             {"y", other.position.y()},
+                             {"z", other.position.z()},
+                             {"time_ns", other.time},
+                             {"zenith_deg", other.zenith / degree},
+                             {"azimuth_deg", other.azimuth / degree},
+                             {"energy_gev", other.energy},
+                             {"delta_neg_llh", fit.other_minimum->delta_neg_llh},
+                             {"delta_neg_llh_error", fit.other_minimum->delta_neg_llh_error}};
+  }
   json["hypothesis"] = fit.kind == CascadeKind::hadron ? "hadron" : "em";
   json["ice"] = {{"name", fit.ice_name}, {"hash", fit.ice_hash}};
   json["neg_llh_error"] = fit.neg_llh_error;

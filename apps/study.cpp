@@ -134,7 +134,23 @@ Json table_json(const StudyTable& table) {
           {"failures", table.failures}};
 }
 
+Json bias_json(const StudyBias& bias, const StudySettings& settings) {
+  return {{"model", to_json(*settings.other)},
+          {"events", bias.events},
+          {"median_angle_deg", bias.median_angle / degree},
+          {"median_angle_truth_deg", bias.median_angle_truth / degree},
+          {"mean_log_energy", bias.mean_log_energy},
+          {"mean_log_energy_error", bias.mean_log_energy_error},
+          {"mean_log_energy_truth", bias.mean_log_energy_truth},
+          {"mean_log_energy_truth_error", bias.mean_log_energy_truth_error},
+          {"mean_delta_neg_llh", bias.mean_delta},
+          {"mean_delta_neg_llh_error", bias.mean_delta_error},
+          {"median_significance", bias.median_significance},
+          {"least_significance", bias.least_significance}};
+}
+
 std::string bias_words(const StudyBias& bias) {
+  if (bias.events == 0) return "Fitted with the other model: no event\n";
   return fmt::format(
       "Fitted with the other model: {} events\n"
       "  angle from the truth, median: {:.2f} deg (with the true model {:.2f} deg)\n"
@@ -172,8 +188,13 @@ void run_study(const StudyCommand& command) {
     first += count;
   }
   if (settings.groups.size() > 1) add_table(rows, "all energies");
-  if (settings.other) text += bias_words(summarise_bias(rows));
-  json.write(json_text({{"model", to_json(settings.truth)}, {"seed", settings.seed}, {"tables", tables}}));
+  Json results = {{"model", to_json(settings.truth)}, {"seed", settings.seed}, {"tables", tables}};
+  if (settings.other) {
+    const StudyBias bias = summarise_bias(rows);
+    text += bias_words(bias);
+    results["other"] = bias_json(bias, settings);
+  }
+  json.write(json_text(results));
   if (command.picture)
     picture.write(
         figure_of_study(rows, fmt::format("{} cascades in {}", rows.size(), model_label(command.model))));

@@ -56,6 +56,10 @@ EventData::EventData(const Detector& detector, const Event& event, const DataSel
   std::vector<bool> used(detector.size());
   for (std::size_t i = 0; i < detector.size(); ++i) used[i] = detector.modules()[i].on;
   for (const ModuleId module : selection.bad) used[detector.index_of(module)] = false;
+  // Modules that the detector does not have are errors wherever they are named.
+  for (const TimeWindow& window : selection.left_out)
+    if (window.module) detector.index_of(*window.module);
+  for (const auto& [module, rate] : selection.noise_of) detector.index_of(module);
 
   std::vector<ModuleData> modules(detector.size());
   first_ = std::numeric_limits<double>::infinity();

@@ -3,9 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-#include <cassert>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 
 #include "reco/direct_fit/goodness_of_fit.h"

@@ -121,7 +121,7 @@ void find_result(ExpectationModel& light, const EventData& data, const FitOption
   look_around(search, options, fit);
   if (!options.goodness) return;
   if (progress) progress(0.92, "measuring the fit");
-  const double photons = search.useful_photons(fit.cascade, options.oversize, 3, 4e6, 1.2e7);
+  const double photons = search.useful_photons(fit.cascade, options.oversize, 3, 4e6, 8e6);
   const Evaluation evaluation =
       evaluate_cascade(light, end.edges.empty() ? data : data.with_edges(end.edges), fit.cascade, photons,
                        options.oversize, evaluations, evaluation_stream, options.model_error);
@@ -129,6 +129,18 @@ void find_result(ExpectationModel& light, const EventData& data, const FitOption
   measure_goodness(evaluation, options, fit);
   for (const std::size_t i : data.brightest(pictured_modules))
     fit.arrival_times.push_back(arrival_times(data, data.lit()[i], evaluation, fit.cascade.time));
+}
+
+std::string words_of(const OtherMinimum& other) {
+  char text[240];
+  const CascadeParameters& c = other.cascade;
+  std::snprintf(
+      text, sizeof text,
+      "  another minimum is hardly worse: -ln L larger by %.1f +- %.1f at x %.1f y %.1f z %.1f m, zenith "
+      "%.0f azimuth %.0f deg, %.3g GeV\n",
+      other.delta_neg_llh, other.delta_neg_llh_error, c.position.x(), c.position.y(), c.position.z(),
+      c.zenith / degree, c.azimuth / degree, c.energy);
+  return text;
 }
 
 }  // namespace
@@ -204,6 +216,7 @@ std::string describe(const CascadeFit& fit) {
       std::snprintf(line, sizeof line, "  %-8s %10.*f +- ? %s\n", names[i], digits, value(i), units[i]);
     text += line;
   }
+  if (fit.other_minimum) text += words_of(*fit.other_minimum);
   if (fit.profile) text += describe(*fit.profile);
   if (fit.sky_map) text += describe(*fit.sky_map);
   char line[200];

@@ -63,7 +63,7 @@ void Search::report(double within_round, const std::string& what) {
   progress_(std::min(0.9, scan_share + (0.9 - scan_share) * rounds / usual_rounds), what);
 }
 
-void Search::simulate(const LocalFrame& frame, const Stage& stage) {
+void Search::simulate(const LocalFrame& frame, const Stage& stage, bool second) {
   const auto design = simplex_design(options_.seed, ++draws_);
   for (std::size_t i = 0; i < design.size(); ++i) {
     Vector7 local = Vector7::Zero();
@@ -71,7 +71,7 @@ void Search::simulate(const LocalFrame& frame, const Stage& stage) {
     local.segment<2>(3) = stage.direction_step * design[i].tail<2>();
     LightRequest request{cascade_of(frame.at(local), options_.kind), stage.photons / double(design.size()),
                          stage.oversize, stream_++};
-    simulations_.push_back(std::make_unique<Simulation>(Simulation{light_.sample(request), draws_}));
+    simulations_.push_back(std::make_unique<Simulation>(Simulation{light_.sample(request), second}));
     ++result_.simulations;
     result_.photons += simulations_.back()->sample.propagated;
     report(double(i + 1) / double(design.size()), words(cascade_of(frame.origin(), options_.kind)));
@@ -81,8 +81,7 @@ void Search::simulate(const LocalFrame& frame, const Stage& stage) {
 std::vector<const LightSample*> Search::near(const LocalFrame& frame, const Stage& stage, Half half) const {
   std::vector<const LightSample*> result;
   for (const auto& simulation : simulations_) {
-    const bool second = simulation->draw % 2 == 1;
-    if ((half == Half::first && second) || (half == Half::second && !second)) continue;
+    if (half != Half::both && simulation->second != (half == Half::second)) continue;
     const LightSample& sample = simulation->sample;
     const Vector7 local = frame.of(light_centre(sample.cascade, options_.kind));
     const double distance = std::hypot(local.head<3>().norm() / stage.position_step,
@@ -105,7 +104,7 @@ Emulator Search::emulate(const EventData& data, const LightCentre& origin, const
 
 Search::RoundEnd Search::round(const LightCentre& origin, const Stage& stage, bool follow_light) {
   const LocalFrame frame(origin);
-  simulate(frame, stage);
+  simulate(frame, stage, draws_ % 2 == 1);
   const std::vector<const LightSample*> samples = near(frame, stage);
   const EventData data =
       follow_light ? data_.with_edges(arrival_edges(data_, frame, samples, options_.kind)) : data_;
@@ -253,19 +252,19 @@ void Search::calibrate(End& end, const Vector7& errors) {
              0};
   wide.photons = useful_photons(here, wide.oversize, 30, 1e6, 1e7);
   Stage narrow{std::clamp(distance, 0.3, 5.0), std::clamp(angle, 0.5 * degree, 10 * degree),
-               options_.oversize, useful_photons(here, options_.oversize, 5, 2e6, 4e7)};
+               options_.oversize, useful_photons(here, options_.oversize, 5, 2e6, 3.2e7)};
   // The emulators' noise must be independent, of each other and of the narrow simulations.
   std::vector<const LightSample*> training[2] = {near(frame, wide, Half::first),
                                                  near(frame, wide, Half::second)};
   std::vector<const LightSample*> fresh[2], all;
-  const auto add = [&](const Stage& stage, std::vector<const LightSample*>& samples) {
+  const auto add = [&](const Stage& stage, bool second, std::vector<const LightSample*>& samples) {
     const std::size_t before = simulations_.size();
-    simulate(frame, stage);
+    simulate(frame, stage, second);
     for (std::size_t i = before; i < simulations_.size(); ++i) samples.push_back(&simulations_[i]->sample);
   };
   for (int fold = 0; fold < 2; ++fold) {
-    add(wide, training[fold]);
-    add(narrow, fresh[fold]);
+    add(wide, fold == 1, training[fold]);
+    add(narrow, fold == 1, fresh[fold]);
     all.insert(all.end(), fresh[fold].begin(), fresh[fold].end());
   }
   end.edges = arrival_edges(data_, frame, all, options_.kind, surely_seen);

@@ -65,8 +65,9 @@ class Search {
   // `follow_light`: bins of the expected light, which needs to be roughly right, instead of the data's
   // blocks.
   RoundEnd round(const LightCentre& origin, const Stage& stage, bool follow_light);
-  void simulate(const LocalFrame& frame, const Stage& stage);
-  enum class Half { both, first, second };  // draws of the design in turn
+  // A draw of the design; `second`: the half that it belongs to.
+  void simulate(const LocalFrame& frame, const Stage& stage, bool second);
+  enum class Half { both, first, second };
   std::vector<const LightSample*> near(const LocalFrame& frame, const Stage& stage,
                                        Half half = Half::both) const;
   Emulator emulate(const EventData& data, const LightCentre& origin, const Stage& stage,
@@ -97,7 +98,7 @@ class Search {
   const Progress& progress_;
   struct Simulation {
     LightSample sample;
-    std::uint64_t draw;  // of the design
+    bool second;  // which half of the simulations it belongs to
   };
   std::vector<std::unique_ptr<Simulation>> simulations_;
   // The last calibration, kept for who wants to know more than its solution.

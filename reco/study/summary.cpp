@@ -63,9 +63,9 @@ class LineBuilder {
       mean = std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
       double square = 0;
       for (const double value : values) square += (value - mean) * (value - mean);
-      spread = values.size() > 1 ? std::sqrt(square / double(values.size() - 1)) : 0;
+      spread = values.size() > 1 ? std::sqrt(square / double(values.size() - 1)) : StudyLine::unknown;
     };
-    double spread = 0;
+    double spread = StudyLine::unknown;
     moments(differences_, result.bias, spread);
     result.bias_error = spread / std::sqrt(double(n));
     moments(pulls_, result.pull_mean, result.pull_width);
@@ -203,7 +203,9 @@ std::string text_of(const StudyTable& table) {
     text += pulls ? fmt::format("  {:>6.2f}  {:>5.2f} +- {:<4.2f}", line.pull_mean, line.pull_width,
                                 line.pull_width_error)
                   : fmt::format("  {:>6}  {:>13}", "", "");
-    text += fmt::format("  {:>5.1f} +- {:<4.1f}\n", 100 * line.coverage, 100 * line.coverage_error);
+    text += line.count > 0
+                ? fmt::format("  {:>5.1f} +- {:<4.1f}\n", 100 * line.coverage, 100 * line.coverage_error)
+                : "\n";
   }
   for (const std::string& failure : table.failures) text += "  not fitted: " + failure + "\n";
   return text;

@@ -1,6 +1,7 @@
 // What a calibration study says: tables of bias, errors, pulls and coverage.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,12 +22,14 @@ StudyResiduals residuals_of(const StudyRow& row, const StudyFit& fit);
 // One parameter, or several taken together, over a number of events.
 struct StudyLine {
   std::string name, unit;
-  std::size_t count = 0;            // of values: events, or events x parameters when pooled
-  double bias = 0, bias_error = 0;  // mean and its error
-  double median_error = 0;          // of |fit - truth|
-  double median_bound = 0;          // what Gaussian errors at the Cramer-Rao bound would give for it
-  double pull_mean = 0, pull_width = 0, pull_width_error = 0;
-  double coverage = 0, coverage_error = 0;  // of the region that ought to hold 68.27%; binomial error
+  std::size_t count = 0;  // of values: events, or events x parameters when pooled
+  // Not a number where there are too few values for it.
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  double bias = unknown, bias_error = unknown;  // mean and its error
+  double median_error = unknown;                // of |fit - truth|
+  double median_bound = unknown;  // what Gaussian errors at the Cramer-Rao bound would give for it
+  double pull_mean = unknown, pull_width = unknown, pull_width_error = unknown;
+  double coverage = unknown, coverage_error = unknown;  // of the region for 68.27%; binomial error
 };
 
 struct StudyTable {
