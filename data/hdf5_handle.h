@@ -1,4 +1,4 @@
-// HDF5's C library with owned handles and checked calls. Used by floe's own event files only.
+// HDF5's C library with owned handles and checked calls. Used by floe's event files and sky maps.
 //
 // HDF5 is not thread safe: one thread at a time may read or write event files.
 #pragma once

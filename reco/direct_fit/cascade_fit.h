@@ -100,7 +100,7 @@ struct CascadeFit {
   // the number of parameters is when every bin is bright.
   double ndof = 0;
   double p_value = std::numeric_limits<double>::quiet_NaN();  // for a neg_llh at least as large
-  std::size_t bins = 0;                                       // modules x Bayesian blocks
+  std::size_t bins = 0;                                       // modules x bins of time that follow the light
 
   std::uint64_t simulations = 0, photons = 0;  // photons: propagated
   double seconds = 0;

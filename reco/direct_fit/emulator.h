@@ -19,7 +19,7 @@ struct EmulatorSettings {
   int threads = 0;
 };
 
-// For every bin (module x Bayesian block) the expectation at local parameters p (see LocalFrame) is
+// For every bin (module x time) the expectation at local parameters p (see LocalFrame) is
 //   mu(p) = point light(p) exp(shape(p) + p_7 + c_0 + c . p_1..5) P(tau) / P(0) + noise,
 // with a common shape and c from regressions over all simulations (see train), and P(tau) the share of the
 // module's light in the bin when it arrives later by tau = p_6 + slowness x (change of distance), from the
