@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "data/base/error.h"
+#include "reco/direct_fit/design.h"
 #include "reco/direct_fit/goodness_of_fit.h"
 #include "reco/event_data.h"
 
@@ -23,8 +24,8 @@ Progress part(const Progress& progress, double from, double to, const std::strin
 // Both fits with the same number of photons and the same random numbers, again and again.
 void measure(const std::array<SimulatedLight*, 2>& light, const EventData& data, const FitOptions& options,
              ModelComparison& result) {
-  const double one = light[0]->photons_per_cascade(result.fits[0].cascade, options.oversize) * data.repeats();
-  const double photons = options.effort * std::clamp(3 * one, 4e6, 1.2e7);
+  const double photons = useful_photons(*light[0], result.fits[0].cascade, data.repeats(), options.oversize,
+                                        options.effort, {3, 4e6, 1.2e7});
   std::array<Evaluation, 2> values;
   for (std::size_t i = 0; i < 2; ++i) {
     values[i] = evaluate_cascade(*light[i], data, result.fits[i].cascade, photons, options.oversize, repeats,

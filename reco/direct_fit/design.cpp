@@ -48,6 +48,27 @@ std::vector<Coordinates> simplex_design(std::uint64_t seed, std::uint64_t draw) 
   return design;
 }
 
+std::vector<LightRequest> design_requests(const LocalFrame& frame, const Stage& stage, CascadeKind kind,
+                                          std::uint64_t seed, std::uint64_t draw,
+                                          std::uint64_t first_stream) {
+  std::vector<LightRequest> requests;
+  const auto design = simplex_design(seed, draw);
+  for (const Coordinates& point : design) {
+    Vector7 local = Vector7::Zero();
+    local.head<3>() = stage.position_step * point.head<3>();
+    local.segment<2>(3) = stage.direction_step * point.tail<2>();
+    requests.push_back({cascade_of(frame.at(local), kind), stage.photons / double(design.size()),
+                        stage.oversize, first_stream++});
+  }
+  return requests;
+}
+
+double useful_photons(ExpectationModel& light, const CascadeParameters& cascade, double repeats,
+                      double oversize, double effort, const PhotonNeed& need) {
+  const double one = light.photons_per_cascade(cascade, oversize) * repeats;
+  return effort * std::clamp(need.events * one, need.least, need.most);
+}
+
 double training_oversize(double oversize) {
   return std::max(oversize, std::clamp(2.5 * oversize, 12.0, 30.0));
 }

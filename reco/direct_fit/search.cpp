@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "reco/direct_fit/arrival_bins.h"
-#include "reco/direct_fit/design.h"
+#include "reco/direct_fit/calibration_stages.h"
 
 namespace floe {
 namespace {
@@ -18,16 +18,11 @@ constexpr int most_coarse_rounds = 3, most_rough_rounds = 8, most_fine_rounds = 
 constexpr int most_rounds_without_score = 5;
 constexpr double acceptable_pull = 1.5;  // of the last step of all
 constexpr double usual_pull = 1.5;       // of a step that noise makes: the largest of seven
-constexpr double least_training_step =
-    5;  // weights need not be exact, and are less noisy from a wide region [m]
-constexpr double least_training_turn = 8 * degree;
-constexpr double design_reach = 2.4;  // how far simulations are used, in steps from the origin
+constexpr double design_reach = 2.4;     // how far simulations are used, in steps from the origin
 // [photoelectrons] expected: hardly any module stays dark.
 constexpr double surely_seen = 4;
 constexpr double other_direction = 50 * degree;  // apart: worth following both
 constexpr std::size_t most_starts = 3;
-constexpr double notable_share = 0.02;                     // of all charge, for a module to limit steps
-constexpr double step_share = 0.3, least_widest_step = 2;  // [m]
 // Two ends so close together are one minimum.
 constexpr double same_place = 8, same_direction = 25 * degree;  // [m]
 // A minimum so much worse in -ln L, by this many errors as well, is left behind.
@@ -51,10 +46,8 @@ Search::Search(ExpectationModel& light, const EventData& data, const MeanIce& ic
                CascadeFit& result, const Progress& progress)
     : light_(light), data_(data), ice_(ice), options_(options), result_(result), progress_(progress) {}
 
-double Search::useful_photons(const CascadeParameters& cascade, double oversize, double events, double least,
-                              double most) {
-  const double one = light_.photons_per_cascade(cascade, oversize) * data_.repeats();
-  return options_.effort * std::clamp(events * one, least, most);
+double Search::photons_for(const CascadeParameters& cascade, double oversize, const PhotonNeed& need) {
+  return useful_photons(light_, cascade, data_.repeats(), oversize, options_.effort, need);
 }
 
 void Search::report(double within_round, const std::string& what) {
@@ -64,17 +57,13 @@ void Search::report(double within_round, const std::string& what) {
 }
 
 void Search::simulate(const LocalFrame& frame, const Stage& stage, bool second) {
-  const auto design = simplex_design(options_.seed, ++draws_);
-  for (std::size_t i = 0; i < design.size(); ++i) {
-    Vector7 local = Vector7::Zero();
-    local.head<3>() = stage.position_step * design[i].head<3>();
-    local.segment<2>(3) = stage.direction_step * design[i].tail<2>();
-    LightRequest request{cascade_of(frame.at(local), options_.kind), stage.photons / double(design.size()),
-                         stage.oversize, stream_++};
-    simulations_.push_back(std::make_unique<Simulation>(Simulation{light_.sample(request), second}));
+  const auto requests = design_requests(frame, stage, options_.kind, options_.seed, ++draws_, stream_);
+  stream_ += requests.size();
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    simulations_.push_back(std::make_unique<Simulation>(Simulation{light_.sample(requests[i]), second}));
     ++result_.simulations;
     result_.photons += simulations_.back()->sample.propagated;
-    report(double(i + 1) / double(design.size()), words(cascade_of(frame.origin(), options_.kind)));
+    report(double(i + 1) / double(requests.size()), words(cascade_of(frame.origin(), options_.kind)));
   }
 }
 
@@ -154,7 +143,7 @@ Search::Minima Search::contest(std::span<const LightCentre> starts, Stage stage,
   if (minima.size() < 2) return minima;
   // Equal photons and random numbers for all.
   const double photons =
-      useful_photons(cascade_of(minima.front().end.light, options_.kind), stage.oversize, 3, 2e5, 1e6);
+      photons_for(cascade_of(minima.front().end.light, options_.kind), stage.oversize, {3, 2e5, 1e6});
   for (Minimum& minimum : minima) {
     minimum.value =
         evaluate_cascade(light_, data_, cascade_of(minimum.end.light, options_.kind), photons, stage.oversize,
@@ -173,19 +162,10 @@ Search::Minima Search::contest(std::span<const LightCentre> starts, Stage stage,
   return minima;
 }
 
-// Light changes within a fraction of the way to a module: steps must not be wider.
-double Search::widest_step(const LightCentre& light) const {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const ModuleData& lit : data_.lit())
-    if (lit.charge > notable_share * data_.charge())
-      nearest = std::min(nearest, (data_.detector().modules()[lit.module].position - light.position).norm());
-  return std::clamp(step_share * nearest, least_widest_step, 10.0);
-}
-
 Stage Search::rough_stage(const LightCentre& light) {
   const double coarse = training_oversize(options_.oversize);
-  return {std::min(8.0, widest_step(light)), 15 * degree, coarse,
-          useful_photons(cascade_of(light, options_.kind), coarse, 3, 6e5, 3e6)};
+  return {std::min(8.0, widest_step(data_, light)), 15 * degree, coarse,
+          photons_for(cascade_of(light, options_.kind), coarse, {3, 6e5, 3e6})};
 }
 
 // On from the minima that are left: the best of them makes the result.
@@ -209,11 +189,11 @@ Search::End Search::refine(const RoundEnd& rough) {
   Vector7 errors = rough.errors;
   bool last_one_moved = true;
   for (int fine = 0; fine == 0 || (last_one_moved && fine < most_fine_rounds); ++fine) {
-    const double widest = widest_step(end.light);
+    const double widest = widest_step(data_, end.light);
     stage.position_step = std::clamp(2 * errors.head<3>().norm(), std::min(3.0, widest), widest);
     stage.direction_step = std::clamp(2 * errors.segment<2>(3).norm(), 4 * degree, 18 * degree);
     stage.oversize = options_.oversize;
-    stage.photons = useful_photons(cascade_of(end.light, options_.kind), stage.oversize, 3, 1e6, 5e6);
+    stage.photons = photons_for(cascade_of(end.light, options_.kind), stage.oversize, {3, 1e6, 5e6});
     const RoundEnd now = round(end.light, stage, true);
     if (!now.errors.allFinite()) break;  // too little light for narrow steps: the wider ones have to do
     end.light = now.light;
@@ -246,13 +226,9 @@ void Search::calibrate(End& end, const Vector7& errors) {
   const LocalFrame frame(end.light);
   const CascadeParameters here = cascade_of(end.light, options_.kind);
   const double distance = errors.head<3>().norm(), angle = errors.segment<2>(3).norm();
-  const double widest = widest_step(end.light);
-  Stage wide{std::clamp(2 * distance, std::min(least_training_step, widest), widest),
-             std::clamp(2 * angle, least_training_turn, 18 * degree), training_oversize(options_.oversize),
-             0};
-  wide.photons = useful_photons(here, wide.oversize, 30, 1e6, 1e7);
-  Stage narrow{std::clamp(distance, 0.3, 5.0), std::clamp(angle, 0.5 * degree, 10 * degree),
-               options_.oversize, useful_photons(here, options_.oversize, 5, 2e6, 3.2e7)};
+  auto [wide, narrow] = calibration_stages(distance, angle, widest_step(data_, end.light), options_.oversize);
+  wide.photons = photons_for(here, wide.oversize, {30, 1e6, 1e7});
+  narrow.photons = photons_for(here, narrow.oversize, {5, 2e6, 3.2e7});
   // The emulators' noise must be independent, of each other and of the narrow simulations.
   std::vector<const LightSample*> training[2] = {near(frame, wide, Half::first),
                                                  near(frame, wide, Half::second)};
@@ -311,7 +287,7 @@ Search::End Search::from_scratch(const PointSeed& point) {
   CascadeParameters rough;
   rough.energy = std::max(10.0, data_.charge() / data_.repeats() / charge_per_gev);
   scan.oversize = std::max(15.0, options_.oversize);
-  scan.photons = useful_photons(rough, scan.oversize, 0.2, 3e4, 2e5);
+  scan.photons = photons_for(rough, scan.oversize, {0.2, 3e4, 2e5});
   scan.first_stream = stream_;
   stream_ += static_cast<std::uint64_t>(scan.directions);
   const auto candidates = scan_directions(light_, data_, ice_, point, scan, [&](double done) {
@@ -328,7 +304,7 @@ Search::End Search::from_scratch(const PointSeed& point) {
   }
   const double oversize = training_oversize(options_.oversize);
   const CascadeParameters best = cascade_of(starts.front(), options_.kind);
-  return follow(contest(starts, {15, 25 * degree, oversize, useful_photons(best, oversize, 1, 4e5, 2e6)},
+  return follow(contest(starts, {15, 25 * degree, oversize, photons_for(best, oversize, {1, 4e5, 2e6})},
                         most_coarse_rounds, false));
 }
 

@@ -10,6 +10,7 @@
 
 #include "reco/direct_fit/calibrated_score.h"
 #include "reco/direct_fit/cascade_fit.h"
+#include "reco/direct_fit/design.h"
 #include "reco/direct_fit/expectation_model.h"
 #include "reco/direct_fit/goodness_of_fit.h"
 #include "reco/direct_fit/local_fit.h"
@@ -18,14 +19,6 @@
 #include "reco/event_data.h"
 
 namespace floe {
-
-// What a round simulates: a simplex design of these steps around the best point so far.
-struct Stage {
-  double position_step = 0;   // [m]
-  double direction_step = 0;  // [rad]
-  double oversize = 5;
-  double photons = 0;  // of all simulations of the round
-};
 
 class Search {
  public:
@@ -50,9 +43,8 @@ class Search {
   End from_scratch(const PointSeed& point);
   End from(const CascadeParameters& start);
 
-  // Photons of `events` repetitions of the cascade with modules of that oversize, but not less or more.
-  double useful_photons(const CascadeParameters& cascade, double oversize, double events, double least,
-                        double most);
+  // Worth simulating for a cascade of this oversize.
+  double photons_for(const CascadeParameters& cascade, double oversize, const PhotonNeed& need);
 
  private:
   struct RoundEnd {
@@ -87,7 +79,6 @@ class Search {
   Minima contest(std::span<const LightCentre> starts, Stage stage, int most_rounds, bool follow_light);
   End follow(Minima minima);
   Stage rough_stage(const LightCentre& light);
-  double widest_step(const LightCentre& light) const;
   void report(double within_round, const std::string& what);
 
   ExpectationModel& light_;
