@@ -1,6 +1,7 @@
 #include "reco/direct_fit/calibrated_score.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <cmath>
@@ -14,6 +15,8 @@ namespace {
 
 constexpr int newton_steps = 14, full_steps = 4;
 constexpr double timing_share = 0.3;  // of an error in place that the geometry of times does not follow
+constexpr double bright = 20;         // [photoelectrons] of a module that may lead the fit astray
+constexpr double usual_scatter = 6;   // the largest of seven mean squares of a dozen simulations
 constexpr double bound_position_error = 0.2;  // [m]
 constexpr double time_step = 3;               // of the numeric derivative in time [ns]
 
@@ -39,10 +42,8 @@ class Fold {
        double position_error)
       : data_(data), own_(own.emulator), other_(other.emulator) {
     set_weights(all_repeats);
-    for (std::size_t begin = 0, end = 0; begin < own_.bins().size(); begin = end) {
-      while (end < own_.bins().size() && own_.bins()[end].module == own_.bins()[begin].module) ++end;
-      distrust_module(begin, end, position_error);
-    }
+    weaken_modules(other.fresh);
+    for_each_module([&](std::size_t begin, std::size_t end) { distrust_module(begin, end, position_error); });
     const Matrix7 information = poisson_variance();
     valley_ = -information.row(5).head<regression_coordinates>().transpose() / information(5, 5);
     for (const LightSample* sample : own.fresh) add(*sample, true);
@@ -152,13 +153,64 @@ class Fold {
       const Emulator::Bin& bin = own_.bins()[i];
       const double mean = data_.repeats() * std::exp(values[i].log_mean);
       means_.push_back(mean);
-      const double variance = 1 + data_.repeats() / all_repeats + error * error * mean;
+      // What the emulator cannot follow counts against a bin, as in the emulated likelihood.
+      const double unknown = error * error + 1 / own_.bins()[i].effective_counts;
+      const double variance = 1 + data_.repeats() / all_repeats + unknown * mean;
       relative_variance_.push_back(variance);
       weights_.push_back(bin.left_out    ? Vector7::Zero()
                          : bin.saturated ? values[i].gradient
                                          : Vector7(values[i].gradient / variance));
       by_time_.push_back(values[i].gradient(5));
     }
+  }
+
+  template <class Do>
+  void for_each_module(Do what) const {
+    for (std::size_t begin = 0, end = 0; begin < own_.bins().size(); begin = end) {
+      while (end < own_.bins().size() && own_.bins()[end].module == own_.bins()[begin].module) ++end;
+      what(begin, end);
+    }
+  }
+
+  // Simulated less expected count of every bin in one event of a simulation.
+  std::vector<double> gaps(const LightSample& sample, const Emulator& emulator) const {
+    Vector7 p = emulator.frame().of(light_centre(sample.cascade, emulator.settings().kind));
+    const double brighter = std::exp(p(6));
+    p(6) = 0;
+    const auto counts = count_bins(data_, sample, sample.cascade.time);
+    std::vector<Emulator::Evaluation> values;
+    emulator.evaluate(p, values);
+    std::vector<double> result;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double noise = emulator.bins()[i].noise;
+      const double simulated = (counts[i].simulation / counts[i].simulation_events - noise) / brighter;
+      result.push_back(simulated - (std::exp(values[i].log_mean) - noise));
+    }
+    return result;
+  }
+
+  // Very near modules see light change in ways that the emulator cannot follow. Where simulations that no
+  // weight knows scatter in a module's sums by more than their counts explain, its weights are reduced.
+  void weaken_modules(std::span<const LightSample* const> judges) {
+    std::vector<std::vector<double>> all;
+    for (const LightSample* sample : judges) all.push_back(gaps(*sample, own_));
+    for_each_module([&](std::size_t begin, std::size_t end) {
+      Vector7 found = Vector7::Zero(), poisson = Vector7::Constant(1e-300);
+      double light = 0;
+      for (std::size_t i = begin; i < end; ++i) {
+        light += means_[i];
+        poisson += means_[i] / data_.repeats() * weights_[i].cwiseAbs2();
+      }
+      if (light < bright || own_.bins()[begin].saturated || own_.bins()[begin].left_out) return;
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        Vector7 sum = Vector7::Zero();
+        for (std::size_t i = begin; i < end; ++i) sum += all[k][i] * weights_[i];
+        found += judges[k]->repeats * sum.cwiseAbs2() / double(all.size());
+      }
+      const double scatter = found.cwiseQuotient(poisson).maxCoeff();
+      if (scatter > usual_scatter)
+        for (std::size_t i = begin; i < end; ++i) weights_[i] *= usual_scatter / scatter;
+    });
   }
 
   // The emulator is not exact over the uncertainty of the place: one bright module may fix its time to 0.1
@@ -170,7 +222,8 @@ class Fold {
     if (first.saturated) return;
     const Vec3 way = data_.detector().modules()[first.module].position - own_.frame().origin().position;
     const double curved = position_error / soft_distance(way);
-    const Eigen::Vector2d error(timing_share * light_slowness() * position_error, curved * curved);
+    const Eigen::Vector2d error(timing_share * light_slowness() * position_error * std::min(1.0, curved),
+                                curved * curved);
     Eigen::Matrix2d known = Eigen::Matrix2d::Zero();
     Eigen::Matrix<double, 2, 7> sum = Eigen::Matrix<double, 2, 7>::Zero(), left = sum;
     const auto nuisance = [&](std::size_t i) -> Eigen::Vector2d {
@@ -288,18 +341,22 @@ class CalibratedScore {
     return sum + 0.5 * (folds_[0].distrust() + folds_[1].distrust());
   }
 
-  // Of Poisson counts in the sums at the origin, with such shares of the folds' weights.
-  Matrix7 information(const std::array<double, 2>& shares) const {
+  // At the origin: variance of Poisson counts in the sums with the mean of both folds' weights, and what it
+  // would be without the weights' noise, which is independent between the folds.
+  struct WeightVariance {
+    Matrix7 all = Matrix7::Zero(), without_noise = Matrix7::Zero();
+  };
+  WeightVariance weight_variance() const {
     std::vector<Emulator::Evaluation> values;
     emulator_.evaluate(Vector7::Zero(), values);
-    Matrix7 variance = Matrix7::Zero(), slope = Matrix7::Zero();
+    WeightVariance sum;
     for (std::size_t i = 0; i < values.size(); ++i) {
-      const Vector7 weight = shares[0] * folds_[0].weights()[i] + shares[1] * folds_[1].weights()[i];
-      variance += data_.repeats() * std::exp(values[i].log_mean) * weight * weight.transpose();
+      const Vector7 &a = folds_[0].weights()[i], &b = folds_[1].weights()[i];
+      const double mean = data_.repeats() * std::exp(values[i].log_mean);
+      sum.all += 0.25 * mean * (a + b) * (a + b).transpose();
+      sum.without_noise += 0.5 * mean * (a * b.transpose() + b * a.transpose());
     }
-    for (std::size_t k = 0; k < 2; ++k)
-      if (shares[k] > 0) slope += shares[k] * folds_[k].score(Vector7::Zero(), corrections_[k]).slope;
-    return slope.transpose() * variance.ldlt().solve(slope);
+    return sum;
   }
 
   // The slopes if the weights were perfect: what all sums' variance is for them.
@@ -343,6 +400,23 @@ Matrix7 sandwich(const Matrix7& slope, const Matrix7& variance) {
   return inverse * variance * inverse.transpose();
 }
 
+InformationBound bound_of(const CalibratedScore& score) {
+  const Matrix7 slope = score.score(Vector7::Zero()).slope;
+  const CalibratedScore::WeightVariance variance = score.weight_variance();
+  InformationBound bound;
+  const Eigen::LLT<Matrix7> root(variance.without_noise);
+  if (!slope.allFinite() || !variance.all.allFinite() || root.info() != Eigen::Success) {
+    bound.covariance = sandwich(slope, variance.all);
+    return bound;
+  }
+  bound.covariance = sandwich(slope, variance.without_noise);
+  const Matrix7 half = root.matrixL().solve(variance.all);
+  const Matrix7 ratio = root.matrixL().solve(Matrix7(half.transpose()));
+  bound.weight_loss =
+      Eigen::SelfAdjointEigenSolver<Matrix7>(ratio, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+  return bound;
+}
+
 }  // namespace
 
 ScoreSolution solve_calibrated_score(const EventData& data, std::span<const ScoreFold, 2> folds,
@@ -350,6 +424,7 @@ ScoreSolution solve_calibrated_score(const EventData& data, std::span<const Scor
   CalibratedScore score(data, folds, position_error);
   ScoreSolution solution;
   solution.dispersion = score.dispersion();
+  solution.weight_loss = bound_of(score).weight_loss;
   const Vector7 most = trust_region(folds[0].emulator.settings());
   const Matrix7 best = score.best_slopes();
   Fold::Score now = score.score(solution.step);
@@ -395,13 +470,8 @@ ScoreLikelihood score_likelihood(const EventData& data, std::span<const ScoreFol
   return {at, emulator.frame(), solution.step, solution.covariance, trust_region(emulator.settings())};
 }
 
-Matrix7 cramer_rao_bound(const EventData& data, std::span<const ScoreFold, 2> folds) {
-  const CalibratedScore score(data, folds, bound_position_error);
-  const Matrix7 both = score.information({0.5, 0.5});
-  const Matrix7 one = 0.5 * (score.information({1, 0}) + score.information({0, 1}));
-  const Matrix7 extrapolated = 2 * both - one;
-  const bool possible = extrapolated.llt().info() == Eigen::Success;
-  return covariance_of(possible ? extrapolated : both);
+InformationBound cramer_rao_bound(const EventData& data, std::span<const ScoreFold, 2> folds) {
+  return bound_of(CalibratedScore(data, folds, bound_position_error));
 }
 
 }  // namespace floe

@@ -30,6 +30,7 @@ struct ScoreSolution {
   // Variance of the fresh simulations about their fit, 1 when they are Poisson counts: photons that hit
   // several modules and what the emulator cannot follow make it larger.
   double dispersion = 1;
+  double weight_loss = std::numeric_limits<double>::infinity();  // of the weights; see InformationBound
   bool converged = false;
   bool leaves = false;  // the solution lies outside the trusted region; step leads to its edge
 };
@@ -43,10 +44,17 @@ ScoreSolution solve_calibrated_score(const EventData& data, std::span<const Scor
 ScoreLikelihood score_likelihood(const EventData& data, std::span<const ScoreFold, 2> folds,
                                  const ScoreSolution& solution, double position_error);
 
+struct InformationBound {
+  Matrix7 covariance = Matrix7::Constant(std::numeric_limits<double>::infinity());  // of the local numbers
+  // Variance with these weights over that with perfect ones, in the combination of parameters where it is
+  // the largest. Infinite where the weights are mostly noise.
+  double weight_loss = std::numeric_limits<double>::infinity();
+};
+
 // The least covariance that any unbiased estimate of the local numbers can have, at the emulators' origin,
 // when data are Poisson counts about the expectation (Cramer-Rao), from the information in the calibrated
 // score. Noise in the weights loses information in proportion to 1/photons: the loss is read off the
 // difference between one fold's weights and both folds' and taken out.
-Matrix7 cramer_rao_bound(const EventData& data, std::span<const ScoreFold, 2> folds);
+InformationBound cramer_rao_bound(const EventData& data, std::span<const ScoreFold, 2> folds);
 
 }  // namespace floe

@@ -70,7 +70,7 @@ double useful_photons(ExpectationModel& light, const CascadeParameters& cascade,
 }
 
 double training_oversize(double oversize) {
-  return std::max(oversize, std::clamp(2.5 * oversize, 12.0, 30.0));
+  return std::max(oversize, std::clamp(5 * oversize, 12.0, 60.0));
 }
 
 std::vector<Vec3> even_directions(int count) {

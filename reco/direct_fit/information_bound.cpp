@@ -11,15 +11,15 @@
 namespace floe {
 namespace {
 
-// The first pass only has to find out how wide the second one's steps should be.
-constexpr double first_position_error = 1.5, first_direction_error = 3 * degree;
-constexpr PhotonNeed rough_training{20, 1e6, 5e6}, rough_narrow{2, 1e6, 3e6};
-constexpr PhotonNeed training{60, 2e6, 2.4e7}, narrow{5, 2e6, 1.2e7};
+constexpr PlaceErrors first_errors{1.5, 3 * degree};  // only to find out how wide steps should be
+constexpr PhotonNeed first_training{60, 1e6, 5e6}, training{200, 2e6, 2e7}, narrow{5, 2e6, 6e6};
+constexpr int most_passes = 5;
+constexpr double acceptable_loss = 1.25;  // what is left is taken out
 
-class BoundAt {
+class BoundSimulations {
  public:
-  BoundAt(ExpectationModel& light, const CascadeParameters& truth, const Event& event,
-          const FitOptions& options)
+  BoundSimulations(ExpectationModel& light, const CascadeParameters& truth, const Event& event,
+                   const FitOptions& options)
       : light_(light),
         truth_(truth),
         options_(options),
@@ -29,17 +29,17 @@ class BoundAt {
 
   const LocalFrame& frame() const { return frame_; }
 
-  // Of the local numbers, with simulations as far apart as such errors suggest.
-  Matrix7 local(double position_error, double direction_error, const PhotonNeed& for_training,
-                const PhotonNeed& for_narrow) {
-    auto [wide, fine] = calibration_stages(position_error, direction_error,
-                                           widest_step(measured_, frame_.origin()), options_.oversize);
+  // Of the local numbers, with more simulations as far apart as such errors suggest.
+  InformationBound improve(const PlaceErrors& errors, const PhotonNeed& for_training) {
+    auto [wide, fine] = calibration_stages(measured_, frame_.origin(), errors, 1, options_.oversize);
     wide.photons = photons(wide.oversize, for_training);
-    fine.photons = photons(fine.oversize, for_narrow);
-    Samples taught[2], fresh[2];
-    for (int fold = 0; fold < 2; ++fold) taught[fold] = simulate(wide), fresh[fold] = simulate(fine);
-    std::vector<const LightSample*> all = pointers(fresh[0]);
-    for (const LightSample* sample : pointers(fresh[1])) all.push_back(sample);
+    fine.photons = photons(fine.oversize, narrow);
+    std::vector<const LightSample*> all;
+    for (int fold = 0; fold < 2; ++fold) {
+      simulate(wide, taught_[fold]);
+      simulate(fine, fresh_[fold]);
+      all.insert(all.end(), fresh_[fold].begin(), fresh_[fold].end());
+    }
     const EventData data = measured_.with_edges(arrival_edges(measured_, frame_, all, options_.kind));
 
     EmulatorSettings settings;
@@ -49,33 +49,24 @@ class BoundAt {
     settings.direction_step = wide.direction_step;
     settings.threads = options_.threads;
     const auto fold = [&](int i) -> ScoreFold {
-      return {Emulator(data, ice_, frame_.origin(), pointers(taught[i]), settings), pointers(taught[i]),
-              pointers(fresh[i])};
+      return {Emulator(data, ice_, frame_.origin(), taught_[i], settings), taught_[i], fresh_[i]};
     };
     const ScoreFold folds[2] = {fold(0), fold(1)};
     return cramer_rao_bound(data, folds);
   }
 
  private:
-  using Samples = std::vector<std::unique_ptr<LightSample>>;
-
   double photons(double oversize, const PhotonNeed& need) {
     return useful_photons(light_, truth_, measured_.repeats(), oversize, options_.effort, need);
   }
 
-  Samples simulate(const Stage& stage) {
+  void simulate(const Stage& stage, std::vector<const LightSample*>& samples) {
     ++draws_;
-    Samples samples;
     for (const LightRequest& request :
-         design_requests(frame_, stage, options_.kind, options_.seed, draws_, 100 * draws_))
-      samples.push_back(std::make_unique<LightSample>(light_.sample(request)));
-    return samples;
-  }
-
-  static std::vector<const LightSample*> pointers(const Samples& samples) {
-    std::vector<const LightSample*> result;
-    for (const auto& sample : samples) result.push_back(sample.get());
-    return result;
+         design_requests(frame_, stage, options_.kind, options_.seed, draws_, 100 * draws_)) {
+      samples_.push_back(std::make_unique<LightSample>(light_.sample(request)));
+      samples.push_back(samples_.back().get());
+    }
   }
 
   ExpectationModel& light_;
@@ -84,6 +75,8 @@ class BoundAt {
   EventData measured_;
   LocalFrame frame_;
   MeanIce ice_;
+  std::vector<std::unique_ptr<LightSample>> samples_;
+  std::vector<const LightSample*> taught_[2], fresh_[2];  // of the two folds
   std::uint64_t draws_ = 0;
 };
 
@@ -91,17 +84,13 @@ class BoundAt {
 
 Matrix7 cramer_rao_bound(ExpectationModel& light, const CascadeParameters& truth, const Event& event,
                          const FitOptions& options) {
-  BoundAt bound(light, truth, event, options);
-  const Matrix7 rough =
-      bound.local(first_position_error, first_direction_error, rough_training, rough_narrow);
-  const auto error = [](double square, double otherwise) {
-    return std::isfinite(square) ? std::sqrt(square) : otherwise;
-  };
-  const Matrix7 local =
-      bound.local(error(rough.topLeftCorner<3, 3>().trace(), first_position_error),
-                  error(rough.block<2, 2>(3, 3).trace(), first_direction_error), training, narrow);
+  BoundSimulations bound(light, truth, event, options);
+  InformationBound found = bound.improve(first_errors, first_training);
+  for (int pass = 1; pass < most_passes && (pass == 1 || found.weight_loss > acceptable_loss); ++pass)
+    found =
+        bound.improve(found.covariance.allFinite() ? place_errors(found.covariance) : first_errors, training);
   const Matrix7 jacobian = bound.frame().jacobian(Vector7::Zero(), options.kind);
-  return jacobian * local * jacobian.transpose();
+  return jacobian * found.covariance * jacobian.transpose();
 }
 
 }  // namespace floe

@@ -14,11 +14,16 @@ namespace {
 constexpr double scan_share = 0.15;   // of the progress bar
 constexpr double usual_rounds = 9;    // of a fit, for the progress bar
 constexpr double charge_per_gev = 2;  // of a contained cascade, roughly [photoelectrons]
-constexpr int most_coarse_rounds = 3, most_rough_rounds = 8, most_fine_rounds = 2, most_calibrations = 4;
+constexpr int most_coarse_rounds = 3, most_rough_rounds = 8, most_fine_rounds = 2, most_calibrations = 6;
 constexpr int most_rounds_without_score = 5;
 constexpr double acceptable_pull = 1.5;  // of the last step of all
 constexpr double usual_pull = 1.5;       // of a step that noise makes: the largest of seven
-constexpr double design_reach = 2.4;     // how far simulations are used, in steps from the origin
+// Of calibrations: new photons even where there are enough already, and what weights may lose (see
+// InformationBound) before they are taught with more photons, up to so many times the usual.
+constexpr double least_fresh_share = 0.2, acceptable_loss = 1.3, most_training = 6;
+constexpr double acceptable_dispersion = 1.8, least_reach = 0.3;
+constexpr double close_enough = 1.2;  // last steps, in steps of the narrow design
+constexpr double design_reach = 2.4;  // how far simulations are used, in steps from the origin
 // [photoelectrons] expected: hardly any module stays dark.
 constexpr double surely_seen = 4;
 constexpr double other_direction = 50 * degree;  // apart: worth following both
@@ -56,21 +61,22 @@ void Search::report(double within_round, const std::string& what) {
   progress_(std::min(0.9, scan_share + (0.9 - scan_share) * rounds / usual_rounds), what);
 }
 
-void Search::simulate(const LocalFrame& frame, const Stage& stage, bool second) {
+void Search::simulate(const LocalFrame& frame, const Stage& stage, Purpose purpose) {
   const auto requests = design_requests(frame, stage, options_.kind, options_.seed, ++draws_, stream_);
   stream_ += requests.size();
   for (std::size_t i = 0; i < requests.size(); ++i) {
-    simulations_.push_back(std::make_unique<Simulation>(Simulation{light_.sample(requests[i]), second}));
+    simulations_.push_back(std::make_unique<Simulation>(Simulation{light_.sample(requests[i]), purpose}));
     ++result_.simulations;
     result_.photons += simulations_.back()->sample.propagated;
     report(double(i + 1) / double(requests.size()), words(cascade_of(frame.origin(), options_.kind)));
   }
 }
 
-std::vector<const LightSample*> Search::near(const LocalFrame& frame, const Stage& stage, Half half) const {
+std::vector<const LightSample*> Search::near(const LocalFrame& frame, const Stage& stage,
+                                             Purpose purpose) const {
   std::vector<const LightSample*> result;
   for (const auto& simulation : simulations_) {
-    if (half != Half::both && simulation->second != (half == Half::second)) continue;
+    if (simulation->purpose != purpose) continue;
     const LightSample& sample = simulation->sample;
     const Vector7 local = frame.of(light_centre(sample.cascade, options_.kind));
     const double distance = std::hypot(local.head<3>().norm() / stage.position_step,
@@ -93,8 +99,9 @@ Emulator Search::emulate(const EventData& data, const LightCentre& origin, const
 
 Search::RoundEnd Search::round(const LightCentre& origin, const Stage& stage, bool follow_light) {
   const LocalFrame frame(origin);
-  simulate(frame, stage, draws_ % 2 == 1);
-  const std::vector<const LightSample*> samples = near(frame, stage);
+  simulate(frame, stage, draws_ % 2 == 1 ? Purpose::second_emulator : Purpose::first_emulator);
+  std::vector<const LightSample*> samples = near(frame, stage, Purpose::first_emulator);
+  for (const LightSample* sample : near(frame, stage, Purpose::second_emulator)) samples.push_back(sample);
   const EventData data =
       follow_light ? data_.with_edges(arrival_edges(data_, frame, samples, options_.kind)) : data_;
   const Emulator emulator = emulate(data, origin, stage, samples);
@@ -205,53 +212,59 @@ Search::End Search::refine(const RoundEnd& rough) {
     end.covariance.setConstant(std::numeric_limits<double>::infinity());
     return end;
   }
-  for (int i = 0; i < most_calibrations && !end.converged && !end.unsolved; ++i) calibrate(end, errors);
+  CalibrationNeed need{{errors.head<3>().norm(), errors.segment<2>(3).norm()}};
+  for (int i = 0; i < most_calibrations && !end.converged && !end.unsolved; ++i) calibrate(end, need);
+  end.unsolved |= !end.converged && end.pull >= acceptable_pull;
   if (end.unsolved) {
     // Too little light for the score's seven sums: the emulator's own minimum and curvature are what is left.
-    const RoundEnd last = settle(end.light, stage, most_rounds_without_score, true);
+    Stage wide = calibration_stages(data_, end.light, need.errors, need.reach, options_.oversize).wide;
+    wide.photons = photons_for(cascade_of(end.light, options_.kind), wide.oversize, {300, 2e6, 2e7});
+    const RoundEnd last = settle(end.light, wide, most_rounds_without_score, true);
     end.light = last.light;
     end.covariance = covariance_of(last.fit.information);
-    end.converged = has_settled(last, stage);
+    end.converged = has_settled(last, wide);
+    if (!end.converged) end.trouble = "the data do not determine all seven numbers";
   }
-  end.converged |= !end.unsolved && end.pull < acceptable_pull;
-  if (!end.converged)
-    end.trouble = end.unsolved ? "the data do not determine all seven numbers"
-                               : "the fit was still moving away after the last round";
+  end.converged |= !end.unsolved;
   return end;
+}
+
+// Simulations near by that have so many photons together: as many as are missing are made.
+std::vector<const LightSample*> Search::enough(const LocalFrame& frame, Stage stage, double photons,
+                                               Purpose purpose) {
+  double known = 0;
+  for (const LightSample* sample : near(frame, stage, purpose)) known += double(sample->propagated);
+  stage.photons = std::max(photons - known, least_fresh_share * photons);
+  simulate(frame, stage, purpose);
+  return near(frame, stage, purpose);
 }
 
 // Two draws of a wide design with wide modules teach the weights, two narrow ones at the wanted oversize say
 // what the weighted sums mean.
-void Search::calibrate(End& end, const Vector7& errors) {
+void Search::calibrate(End& end, CalibrationNeed& need) {
   const LocalFrame frame(end.light);
   const CascadeParameters here = cascade_of(end.light, options_.kind);
-  const double distance = errors.head<3>().norm(), angle = errors.segment<2>(3).norm();
-  auto [wide, narrow] = calibration_stages(distance, angle, widest_step(data_, end.light), options_.oversize);
-  wide.photons = photons_for(here, wide.oversize, {30, 1e6, 1e7});
-  narrow.photons = photons_for(here, narrow.oversize, {5, 2e6, 3.2e7});
-  // The emulators' noise must be independent, of each other and of the narrow simulations.
-  std::vector<const LightSample*> training[2] = {near(frame, wide, Half::first),
-                                                 near(frame, wide, Half::second)};
-  std::vector<const LightSample*> fresh[2], all;
-  const auto add = [&](const Stage& stage, bool second, std::vector<const LightSample*>& samples) {
-    const std::size_t before = simulations_.size();
-    simulate(frame, stage, second);
-    for (std::size_t i = before; i < simulations_.size(); ++i) samples.push_back(&simulations_[i]->sample);
-  };
-  for (int fold = 0; fold < 2; ++fold) {
-    add(wide, fold == 1, training[fold]);
-    add(narrow, fold == 1, fresh[fold]);
-    all.insert(all.end(), fresh[fold].begin(), fresh[fold].end());
-  }
+  const auto [wide, narrow] =
+      calibration_stages(data_, end.light, need.errors, need.reach, options_.oversize);
+  const double for_training = need.training * photons_for(here, wide.oversize, {100, 1e6, 1e7});
+  const double for_judging = photons_for(here, narrow.oversize, {5, 2e6, 3.2e7});
+  const std::vector<const LightSample*> training[2] = {
+      enough(frame, wide, for_training, Purpose::first_emulator),
+      enough(frame, wide, for_training, Purpose::second_emulator)};
+  const std::vector<const LightSample*> fresh[2] = {
+      enough(frame, narrow, for_judging, Purpose::first_judge),
+      enough(frame, narrow, for_judging, Purpose::second_judge)};
+  std::vector<const LightSample*> all = fresh[0];
+  all.insert(all.end(), fresh[1].begin(), fresh[1].end());
   end.edges = arrival_edges(data_, frame, all, options_.kind, surely_seen);
-  calibration_ = std::make_unique<Calibration>(
-      Calibration{data_.with_edges(arrival_edges(data_, frame, all, options_.kind)), distance, {}, {}});
+  calibration_ = std::make_unique<Calibration>(Calibration{
+      data_.with_edges(arrival_edges(data_, frame, all, options_.kind)), need.errors.position, {}, {}});
   auto& folds = calibration_->folds;
   for (int fold = 0; fold < 2; ++fold)
     folds.push_back(
         {emulate(calibration_->data, end.light, wide, training[fold]), training[fold], fresh[fold]});
   const ScoreSolution& solution = calibration_->solution =
-      solve_calibrated_score(calibration_->data, std::span<const ScoreFold, 2>(folds), distance);
+      solve_calibrated_score(calibration_->data, std::span<const ScoreFold, 2>(folds), need.errors.position);
   if (!solution.converged && !solution.leaves) {
     end.unsolved = true;
     end.covariance.setConstant(std::numeric_limits<double>::infinity());
@@ -262,12 +275,24 @@ void Search::calibrate(End& end, const Vector7& errors) {
   if (options_.data_widened)
     end.covariance += std::max(0.0, solution.dispersion - 1) * solution.data_covariance;
   const Vector7 found = solution.covariance.diagonal().cwiseSqrt();
-  end.pull = solution.step.cwiseAbs().cwiseQuotient(found).maxCoeff();
-  const bool inside = solution.step.head<3>().norm() < design_reach * narrow.position_step &&
-                      solution.step.segment<2>(3).norm() < design_reach * narrow.direction_step;
-  end.converged = solution.converged && (inside || end.pull < 1);
+  end.pull = solution.leaves ? std::numeric_limits<double>::infinity()
+                             : solution.step.cwiseAbs().cwiseQuotient(found).maxCoeff();
+  const bool inside = solution.step.head<3>().norm() < close_enough * narrow.position_step &&
+                      solution.step.segment<2>(3).norm() < close_enough * narrow.direction_step;
+  const bool smooth = solution.dispersion < acceptable_dispersion || need.reach <= least_reach;
+  const bool enough_light = solution.weight_loss < acceptable_loss || need.training >= most_training;
+  end.converged = solution.converged && (inside || end.pull < 1) && enough_light && smooth;
   result_.rounds.push_back({cascade_of(end.light, options_.kind), folds[0].emulator.neg_llh(solution.step),
                             narrow.position_step, narrow.direction_step, narrow.oversize, end.pull});
+  if (!smooth) {  // simulations reach further than the emulator can follow
+    need.reach = std::max(least_reach, 0.6 * need.reach);
+    return;
+  }
+  // The emulators' errors, which a search begins with, may be far too small.
+  const PlaceErrors now = place_errors(solution.data_covariance);
+  need.errors.position = std::clamp(now.position, 0.5 * need.errors.position, 1.5 * need.errors.position);
+  need.errors.direction = std::clamp(now.direction, 0.5 * need.errors.direction, 1.5 * need.errors.direction);
+  if (!enough_light) need.training = std::min(most_training, 3 * need.training);
 }
 
 std::optional<ScoreLikelihood> Search::likelihood() const {

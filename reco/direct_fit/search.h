@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "reco/direct_fit/calibrated_score.h"
+#include "reco/direct_fit/calibration_stages.h"
 #include "reco/direct_fit/cascade_fit.h"
-#include "reco/direct_fit/design.h"
 #include "reco/direct_fit/expectation_model.h"
 #include "reco/direct_fit/goodness_of_fit.h"
 #include "reco/direct_fit/local_fit.h"
@@ -57,17 +57,26 @@ class Search {
   // `follow_light`: bins of the expected light, which needs to be roughly right, instead of the data's
   // blocks.
   RoundEnd round(const LightCentre& origin, const Stage& stage, bool follow_light);
-  // A draw of the design; `second`: the half that it belongs to.
-  void simulate(const LocalFrame& frame, const Stage& stage, bool second);
-  enum class Half { both, first, second };
-  std::vector<const LightSample*> near(const LocalFrame& frame, const Stage& stage,
-                                       Half half = Half::both) const;
+  // What simulations are for. The emulators' noise must be independent, of each other and of the narrow
+  // simulations that judge them.
+  enum class Purpose { first_emulator, second_emulator, first_judge, second_judge };
+  void simulate(const LocalFrame& frame, const Stage& stage, Purpose purpose);
+  // Those near by, of this oversize and made for this.
+  std::vector<const LightSample*> near(const LocalFrame& frame, const Stage& stage, Purpose purpose) const;
   Emulator emulate(const EventData& data, const LightCentre& origin, const Stage& stage,
                    std::span<const LightSample* const> samples) const;
   static bool has_settled(const RoundEnd& end, const Stage& stage);
   RoundEnd settle(LightCentre origin, Stage stage, int most, bool follow_light);
   End refine(const RoundEnd& rough);
-  void calibrate(End& end, const Vector7& errors);
+  // Errors as far as they are known, how far apart and with how many photons to simulate in the next
+  // calibration.
+  struct CalibrationNeed {
+    PlaceErrors errors;
+    double reach = 1, training = 1;  // times the usual
+  };
+  void calibrate(End& end, CalibrationNeed& need);
+  std::vector<const LightSample*> enough(const LocalFrame& frame, Stage stage, double photons,
+                                         Purpose purpose);
   // A minimum on the way, measured by fresh simulations.
   struct Minimum {
     RoundEnd end;
@@ -89,7 +98,7 @@ class Search {
   const Progress& progress_;
   struct Simulation {
     LightSample sample;
-    bool second;  // which half of the simulations it belongs to
+    Purpose purpose;
   };
   std::vector<std::unique_ptr<Simulation>> simulations_;
   // The last calibration, kept for who wants to know more than its solution.
