@@ -65,34 +65,30 @@ std::optional<std::string> picture_name(const std::optional<std::string>& pictur
 }
 
 struct ParameterRow {
-  const char* name;
+  std::string name;
   double a, b, error_a, error_b;
   int digits;
 };
 
 std::vector<ParameterRow> parameter_rows(const CascadeFit& a, const CascadeFit& b) {
-  constexpr std::array<const char*, 7> names{"x [m]",        "y [m]",         "z [m]",       "time [ns]",
-                                             "zenith [deg]", "azimuth [deg]", "energy [GeV]"};
-  const auto values = [](const CascadeFit& fit) {
-    Vector7 v = to_vector(fit.cascade);
-    v.segment<2>(4) /= degree;
-    return v;
-  };
-  const Vector7 va = values(a), vb = values(b);
-  const Matrix7 ca = a.covariance_in_degrees(), cb = b.covariance_in_degrees();
+  const Vector7 va = to_vector(a.cascade), vb = to_vector(b.cascade);
   std::vector<ParameterRow> rows;
-  for (int i = 0; i < 7; ++i)
-    rows.push_back({names[i], va[i], vb[i], std::sqrt(ca(i, i)), std::sqrt(cb(i, i)),
+  for (int i = 0; i < 7; ++i) {
+    const ShownParameter& shown = shown_parameters[static_cast<std::size_t>(i)];
+    const double unit = shown.unit_size;
+    rows.push_back({fmt::format("{} [{}]", shown.name, shown.unit), va[i] / unit, vb[i] / unit,
+                    std::sqrt(a.covariance(i, i)) / unit, std::sqrt(b.covariance(i, i)) / unit,
                     i < 3   ? 2
                     : i < 6 ? 1
                             : 0});
+  }
   return rows;
 }
 
 // B - A of an angle around the circle is the short way round.
 double difference(const ParameterRow& row) {
   const double plain = row.b - row.a;
-  return std::string(row.name).starts_with("azimuth") ? std::remainder(plain, 360.0) : plain;
+  return row.name.starts_with("azimuth") ? std::remainder(plain, 360.0) : plain;
 }
 
 std::string comparison_table(const ModelComparison& comparison) {

@@ -30,13 +30,26 @@ Json areas_json(const SkyMap& map) {
 }
 
 Json profile_json(const ProfileIntervals& intervals) {
-  constexpr std::array<const char*, 7> names{"x",          "y",           "z",         "time_ns",
-                                             "zenith_deg", "azimuth_deg", "energy_gev"};
   Json json = Json::object();
   for (std::size_t i = 0; i < 7; ++i) {
-    const double unit = i == 4 || i == 5 ? degree : 1;
-    json[names[i]] = Json::array({intervals[i].low / unit, intervals[i].high / unit});
+    const ShownParameter& shown = shown_parameters[i];
+    json[shown.key] = Json::array({intervals[i].low / shown.unit_size, intervals[i].high / shown.unit_size});
   }
+  return json;
+}
+
+Json cascade_json(const CascadeParameters& cascade) {
+  const Vector7 value = to_vector(cascade);
+  Json json = Json::object();
+  for (std::size_t i = 0; i < 7; ++i)
+    json[shown_parameters[i].key] = value(static_cast<int>(i)) / shown_parameters[i].unit_size;
+  return json;
+}
+
+Json other_minimum_json(const OtherMinimum& other) {
+  Json json = cascade_json(other.cascade);
+  json["delta_neg_llh"] = other.delta_neg_llh;
+  json["delta_neg_llh_error"] = other.delta_neg_llh_error;
   return json;
 }
 
@@ -170,18 +183,10 @@ Json to_json(const FitOptions& options) {
 Json fit_json(const CascadeFit& fit) {
   Json json = {{"status", name_of(fit.status)}, {"reason", fit.reason}};
   if (fit.status == FitStatus::not_enough_light) {
-    for (const char* key : {"x", "y", "z", "time_ns", "zenith_deg", "azimuth_deg", "energy_gev", "covariance",
-                            "neg_llh", "ndof", "p_value"})
-      json[key] = nullptr;
+    for (const ShownParameter& shown : shown_parameters) json[shown.key] = nullptr;
+    for (const char* key : {"covariance", "neg_llh", "ndof", "p_value"}) json[key] = nullptr;
   } else {
-    const CascadeParameters& cascade = fit.cascade;
-    json["x"] = cascade.position.x();
-    json["y"] = cascade.position.y();
-    json["z"] = cascade.position.z();
-    json["time_ns"] = cascade.time;
-    json["zenith_deg"] = cascade.zenith / degree;
-    json["azimuth_deg"] = cascade.azimuth / degree;
-    json["energy_gev"] = cascade.energy;
+    json.update(cascade_json(fit.cascade));
     json["covariance"] = covariance_json(fit);
     json["neg_llh"] = fit.neg_llh;
     json["ndof"] = fit.ndof;
@@ -189,18 +194,7 @@ Json fit_json(const CascadeFit& fit) {
   }
   if (fit.sky_map) json["sky_map"] = areas_json(*fit.sky_map);
   if (fit.profile) json["profile"] = profile_json(*fit.profile);
-  if (fit.other_minimum) {
-    const CascadeParameters& other = fit.other_minimum->cascade;
-    json["other_minimum"] = {{"x", other.position.x()},
-                             {"y", other.position.y()},
-                             {"z", other.position.z()},
-                             {"time_ns", other.time},
-                             {"zenith_deg", other.zenith / degree},
-                             {"azimuth_deg", other.azimuth / degree},
-                             {"energy_gev", other.energy},
-                             {"delta_neg_llh", fit.other_minimum->delta_neg_llh},
-                             {"delta_neg_llh_error", fit.other_minimum->delta_neg_llh_error}};
-  }
+  if (fit.other_minimum) json["other_minimum"] = other_minimum_json(*fit.other_minimum);
   json["hypothesis"] = fit.kind == CascadeKind::hadron ? "hadron" : "em";
   json["ice"] = {{"name", fit.ice_name}, {"hash", fit.ice_hash}};
   json["neg_llh_error"] = fit.neg_llh_error;

@@ -7,6 +7,7 @@
 #include "data/base/atomic_file.h"
 #include "data/base/error.h"
 #include "data/event_files.h"
+#include "data/hdf5_output.h"
 #include "data/hdf5_schema.h"
 
 namespace floe {
@@ -15,34 +16,9 @@ using namespace hdf5;
 
 namespace {
 
-constexpr unsigned deflate_level = 4;
-
-Hdf5Handle create_file(const std::filesystem::path& path) {
-  Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "set up the file");
-  // From version 1.10 on all of HDF5's own structures carry checksums, so that damage is noticed.
-  checked(H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110), "set up the file");
-  // The temporary file is ours alone, and locks fail on some network folders.
-  checked(H5Pset_file_locking(access, false, true), "set up the file");
-  return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "create the file"};
-}
-
-void write_attribute(hid_t file, const char* name, hid_t type, const void* value) {
-  const Hdf5Handle scalar(H5Screate(H5S_SCALAR), H5Sclose, "describe an attribute");
-  const Hdf5Handle attribute(H5Acreate2(file, name, type, scalar, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
-                             "create an attribute");
-  checked(H5Awrite(attribute, type, value), "write an attribute");
-}
-
-// Text of fixed length stands where HDF5 keeps checksums; text of variable length does not, and damage
-// there crashes the library in whoever reads the file.
-void write_attribute(hid_t file, const char* name, const std::string& text) {
-  const std::string padded = text.empty() ? std::string(1, '\0') : text;
-  write_attribute(file, name, utf8_type(padded.size()), padded.data());
-}
-
 void write_provenance(hid_t file, const Provenance& provenance) {
-  write_attribute(file, "format", std::string(format_name));
-  write_attribute(file, "format_version", H5T_NATIVE_UINT64, &format_version);
+  write_attribute(file, "format", format_name);
+  write_attribute(file, "format_version", format_version);
   write_attribute(file, "version", provenance.version);
   write_attribute(file, "command", provenance.command);
   write_attribute(file, "configuration", provenance.configuration);
@@ -50,9 +26,8 @@ void write_provenance(hid_t file, const Provenance& provenance) {
   write_attribute(file, "ice_hash", provenance.ice_hash);
   write_attribute(file, "detector_name", provenance.detector_name);
   write_attribute(file, "detector_hash", provenance.detector_hash);
-  const std::uint64_t seed = provenance.seed;
-  write_attribute(file, "seed", H5T_NATIVE_UINT64, &seed);
-  write_attribute(file, "oversize", H5T_NATIVE_DOUBLE, &provenance.oversize);
+  write_attribute(file, "seed", std::uint64_t{provenance.seed});
+  write_attribute(file, "oversize", provenance.oversize);
 }
 
 // One table of the file, to which rows are appended; a chunk's worth of them is kept in memory.
@@ -62,13 +37,7 @@ class TableWriter {
   explicit TableWriter(hid_t file) : row_type_(row_type_in_memory(Table<Row>::columns(), sizeof(Row))) {
     const hsize_t none = 0, unlimited = H5S_UNLIMITED, chunk = Table<Row>::rows_per_chunk;
     const Hdf5Handle space(H5Screate_simple(1, &none, &unlimited), H5Sclose, "describe a table");
-    const Hdf5Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "describe a table");
-    checked(H5Pset_chunk(layout, 1, &chunk), "set a table's chunks");
-    checked(H5Pset_shuffle(layout), "set a table's compression");
-    checked(H5Pset_deflate(layout, deflate_level), "set a table's compression");
-    checked(H5Pset_fletcher32(layout), "set a table's checksum");
-    // The same events give the same bytes, whenever they are written.
-    checked(H5Pset_obj_track_times(layout, false), "describe a table");
+    const Hdf5Handle layout = compressed_layout({&chunk, 1});
     table_ = Hdf5Handle(H5Dcreate2(file, Table<Row>::name, row_type_in_file(Table<Row>::columns()), space,
                                    H5P_DEFAULT, layout, H5P_DEFAULT),
                         H5Dclose, "create a table");
@@ -119,18 +88,6 @@ struct EventFileWriter::Impl {
     file = {};
   }
 
-  // Failures of the library become OutputError.
-  template <typename Work>
-  void guarded(const Work& work) {
-    const Hdf5Silence silence;
-    try {
-      work();
-    } catch (const Hdf5Failure& failure) {
-      throw OutputError(
-          fmt::format("{}: cannot be written: {}. Is the disk full?", path.string(), failure.what()));
-    }
-  }
-
   void create(const Provenance& provenance) {
     file = create_file(target.temporary());
     write_provenance(file, provenance);
@@ -163,7 +120,7 @@ struct EventFileWriter::Impl {
 
 EventFileWriter::EventFileWriter(std::filesystem::path path, const Provenance& provenance)
     : impl_(std::make_unique<Impl>(std::move(path))) {
-  impl_->guarded([&] { impl_->create(provenance); });
+  guarded(impl_->path, [&] { impl_->create(provenance); });
 }
 
 EventFileWriter::~EventFileWriter() = default;
@@ -175,7 +132,7 @@ void EventFileWriter::begin_event(const std::string& id, const std::vector<Parti
   if (!impl_->ids.insert(id).second)
     throw UsageError(fmt::format("{}: two events are named '{}'; the names in a file must differ",
                                  impl_->path.string(), id));
-  impl_->guarded([&] {
+  guarded(impl_->path, [&] {
     impl_->finish_event();
     EventRow row{{}, repeats, impl_->hits->size(), 0, impl_->particles->size(), truth.size()};
     id.copy(row.id, sizeof(row.id));
@@ -188,7 +145,7 @@ void EventFileWriter::begin_event(const std::string& id, const std::vector<Parti
 void EventFileWriter::append(std::span<const Hit> hits) {
   if (!impl_->current) throw std::logic_error("EventFileWriter::append without begin_event");
   for (const Hit& hit : hits) expect_valid(problem_of(hit), impl_->current_id);
-  impl_->guarded([&] {
+  guarded(impl_->path, [&] {
     for (const Hit& hit : hits) impl_->hits->append(row_of(hit));
     if (impl_->weights) add_weights(impl_->module_weights, hits);
   });
@@ -196,7 +153,7 @@ void EventFileWriter::append(std::span<const Hit> hits) {
 
 void EventFileWriter::close() {
   if (impl_->ids.empty()) throw std::logic_error("EventFileWriter::close without an event");
-  impl_->guarded([&] {
+  guarded(impl_->path, [&] {
     impl_->finish_event();
     impl_->hits->close(), impl_->particles->close(), impl_->events->close();
     if (impl_->weights) impl_->weights->close();

@@ -30,10 +30,7 @@ void measure(const std::array<SimulatedLight*, 2>& light, const EventData& data,
   for (std::size_t i = 0; i < 2; ++i) {
     values[i] = evaluate_cascade(*light[i], data, result.fits[i].cascade, photons, options.oversize, repeats,
                                  first_stream, options.model_error);
-    for (const LightSample& sample : values[i].samples) {
-      ++result.fits[i].simulations;
-      result.fits[i].photons += sample.propagated;
-    }
+    for (const LightSample& sample : values[i].samples) result.fits[i].count_simulation(sample.propagated);
   }
   const Difference worse = difference(values[1], values[0]);
   result.delta_neg_llh = worse.value;

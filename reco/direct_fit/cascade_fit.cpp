@@ -125,7 +125,7 @@ void find_result(ExpectationModel& light, const EventData& data, const FitOption
   const Evaluation evaluation =
       evaluate_cascade(light, end.edges.empty() ? data : data.with_edges(end.edges), fit.cascade, photons,
                        options.oversize, evaluations, evaluation_stream, options.model_error);
-  for (const LightSample& sample : evaluation.samples) ++fit.simulations, fit.photons += sample.propagated;
+  for (const LightSample& sample : evaluation.samples) fit.count_simulation(sample.propagated);
   measure_goodness(evaluation, options, fit);
   for (const std::size_t i : data.brightest(pictured_modules))
     fit.arrival_times.push_back(arrival_times(data, data.lit()[i], evaluation, fit.cascade.time));
@@ -199,21 +199,16 @@ CascadeFit fit_cascade(ExpectationModel& light, const EventData& data, const Fit
 std::string describe(const CascadeFit& fit) {
   std::string text = name_of(fit.status) + (fit.reason.empty() ? "" : ": " + fit.reason) + "\n";
   if (fit.status == FitStatus::not_enough_light) return text;
-  const Matrix7 covariance = fit.covariance_in_degrees();
-  Vector7 value = to_vector(fit.cascade);
-  value(4) /= degree;
-  value(5) /= degree;
-  const char* names[] = {"x", "y", "z", "time", "zenith", "azimuth", "energy"};
-  const char* units[] = {"m", "m", "m", "ns", "deg", "deg", "GeV"};
+  const Vector7 value = to_vector(fit.cascade);
   for (int i = 0; i < 7; ++i) {
-    char line[120];
-    const int digits = i == 6 ? 0 : 2;
-    const double variance = covariance(i, i);
+    const ShownParameter& shown = shown_parameters[static_cast<std::size_t>(i)];
+    const double variance = fit.covariance(i, i);
+    char error[40] = "?";  // the data leave it open
     if (variance >= 0)
-      std::snprintf(line, sizeof line, "  %-8s %10.*f +- %.*f %s\n", names[i], digits, value(i), digits,
-                    std::sqrt(variance), units[i]);
-    else  // the data leave it open
-      std::snprintf(line, sizeof line, "  %-8s %10.*f +- ? %s\n", names[i], digits, value(i), units[i]);
+      std::snprintf(error, sizeof error, "%.*f", shown.digits, std::sqrt(variance) / shown.unit_size);
+    char line[120];
+    std::snprintf(line, sizeof line, "  %-8s %10.*f +- %s %s\n", shown.name, shown.digits,
+                  value(i) / shown.unit_size, error, shown.unit);
     text += line;
   }
   if (fit.other_minimum) text += words_of(*fit.other_minimum);

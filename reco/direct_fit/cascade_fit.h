@@ -111,6 +111,7 @@ struct CascadeFit {
   bool usable() const { return status == FitStatus::ok || status == FitStatus::track_like; }
   // With the angles in degrees, as files have it.
   Matrix7 covariance_in_degrees() const;
+  void count_simulation(std::uint64_t propagated) { ++simulations, photons += propagated; }
 };
 
 // Fits one event. Deterministic: the same seed gives the same result for any number of threads. What the

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
+#include "data/base/constants.h"
 #include "propagation/sources/cascade.h"
 
 namespace floe {
@@ -17,6 +19,21 @@ struct CascadeParameters {
 };
 using Vector7 = Eigen::Matrix<double, 7, 1>;
 using Matrix7 = Eigen::Matrix<double, 7, 7>;
+
+// How tables and files show them: value / unit_size, with so many digits.
+struct ShownParameter {
+  const char *name, *unit;
+  const char* key;  // in JSON
+  double unit_size = 1;
+  int digits = 2;
+};
+inline constexpr std::array<ShownParameter, 7> shown_parameters{{{"x", "m", "x"},
+                                                                 {"y", "m", "y"},
+                                                                 {"z", "m", "z"},
+                                                                 {"time", "ns", "time_ns"},
+                                                                 {"zenith", "deg", "zenith_deg", degree},
+                                                                 {"azimuth", "deg", "azimuth_deg", degree},
+                                                                 {"energy", "GeV", "energy_gev", 1, 0}}};
 
 Vector7 to_vector(const CascadeParameters& cascade);
 Cascade to_cascade(const CascadeParameters& cascade, CascadeKind kind);

@@ -99,14 +99,12 @@ ProfileIntervals profile_intervals(const ScoreLikelihood& likelihood, CascadeKin
 }
 
 std::string describe(const ProfileIntervals& intervals) {
-  constexpr std::array<const char*, 7> names{"x", "y", "z", "time", "zenith", "azimuth", "energy"};
-  constexpr std::array<const char*, 7> units{"m", "m", "m", "ns", "deg", "deg", "GeV"};
   std::string text = "  68% of the profile likelihood:\n";
   for (std::size_t i = 0; i < 7; ++i) {
-    const double unit = i == 4 || i == 5 ? degree : 1;
-    const int digits = i == 6 ? 0 : 2;
-    text += fmt::format("  {:<8} {:>10} to {} {}\n", names[i], words(intervals[i].low / unit, digits),
-                        words(intervals[i].high / unit, digits), units[i]);
+    const ShownParameter& shown = shown_parameters[i];
+    text += fmt::format("  {:<8} {:>10} to {} {}\n", shown.name,
+                        words(intervals[i].low / shown.unit_size, shown.digits),
+                        words(intervals[i].high / shown.unit_size, shown.digits), shown.unit);
   }
   return text;
 }

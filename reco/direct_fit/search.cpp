@@ -66,8 +66,7 @@ void Search::simulate(const LocalFrame& frame, const Stage& stage, Purpose purpo
   stream_ += requests.size();
   for (std::size_t i = 0; i < requests.size(); ++i) {
     simulations_.push_back(std::make_unique<Simulation>(Simulation{light_.sample(requests[i]), purpose}));
-    ++result_.simulations;
-    result_.photons += simulations_.back()->sample.propagated;
+    result_.count_simulation(simulations_.back()->sample.propagated);
     report(double(i + 1) / double(requests.size()), words(cascade_of(frame.origin(), options_.kind)));
   }
 }
@@ -155,8 +154,7 @@ Search::Minima Search::contest(std::span<const LightCentre> starts, Stage stage,
     minimum.value =
         evaluate_cascade(light_, data_, cascade_of(minimum.end.light, options_.kind), photons, stage.oversize,
                          contest_parts, contest_stream + 100 * contests_, options_.model_error);
-    for (const LightSample& sample : minimum.value.samples)
-      ++result_.simulations, result_.photons += sample.propagated;
+    for (const LightSample& sample : minimum.value.samples) result_.count_simulation(sample.propagated);
     minimum.value.samples.clear();
   }
   ++contests_;

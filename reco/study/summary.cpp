@@ -114,12 +114,11 @@ StudyResiduals residuals_of(const StudyRow& row, const StudyFit& fit) {
 }
 
 StudyTable summarise(std::span<const StudyRow> rows, const std::string& title) {
-  constexpr std::array<const char*, 7> names{"x", "y", "z", "time", "zenith", "azimuth", "energy"};
-  constexpr std::array<const char*, 7> units{"m", "m", "m", "ns", "deg", "deg", "%"};
-  constexpr std::array<double, 7> scales{1, 1, 1, 1, 1 / degree, 1 / degree, 100};
   constexpr double gaussian_median = 0.67449;
   std::vector<LineBuilder> lines;
-  for (std::size_t i = 0; i < 7; ++i) lines.emplace_back(names[i], units[i], scales[i]);
+  for (const ShownParameter& shown : shown_parameters)
+    lines.emplace_back(shown.name, shown.unit, 1 / shown.unit_size);
+  lines.back() = {"energy", "%", 100};  // relative
   LineBuilder position("position", "m", 1), direction("direction", "deg", 1 / degree),
       pooled("pooled", "", 1);
   StudyTable table;

@@ -10,6 +10,7 @@
 #include "data/event_files.h"
 #include "tests/app/floe_runner.h"
 #include "tests/app/small_detector.h"
+#include "tests/app/wrong_cases.h"
 #include "tests/unit/data/temporary_folder.h"
 
 namespace floe::test {
@@ -133,20 +134,11 @@ TEST_F(DataSelectionOptions, ChargeAboveTheCapIsNotUsed) {
   EXPECT_NE(capped["x"], plain_["x"]);
 }
 
-struct Case {
-  std::string name, options;
-  int code;
-  std::string said;
-};
-std::ostream& operator<<(std::ostream& stream, const Case& test_case) {
-  return stream << "floe reconstruct " << test_case.options;
-}
-
-class WrongDataSelection : public testing::TestWithParam<Case> {};
+class WrongDataSelection : public testing::TestWithParam<WrongCase> {};
 
 TEST_P(WrongDataSelection, IsSaidAndLeavesNothing) {
   const TemporaryFolder folder;
-  write_bytes(folder.path() / "event.hits", "HIT 20 30 100.0 400.0 1.5 0.5 1.5 0.5\n");
+  write_readable_event(folder.path() / "event.hits");
   write_bytes(folder.path() / "words.txt", "20 30\n20 thirty\n");
   write_bytes(folder.path() / "unknown.txt", "20 30\n20 61\n");
   write_bytes(folder.path() / "long.txt", "# string DOM\n20 30 40\n");
@@ -154,14 +146,10 @@ TEST_P(WrongDataSelection, IsSaidAndLeavesNothing) {
   write_bytes(folder.path() / "loud.txt", "20 30 500\n\n20 31 loud\n");
   write_bytes(folder.path() / "negative.txt", "20 30 500\n20 31 -5\n");
   write_bytes(folder.path() / "endless.txt", "20 30 1e7\n");
-  const auto before = files_in(folder.path());
-  const Outcome outcome =
-      run_floe(folder.path(), "reconstruct event.hits --json fit.json " + GetParam().options);
-  expect_error(outcome, GetParam().code, GetParam().said);
-  EXPECT_EQ(files_in(folder.path()), before);
+  expect_said_and_nothing_left(folder.path(), GetParam());
 }
 
-const Case cases[] = {
+const WrongCase cases[] = {
     {"BadOfOneNumber", "--bad 20", 2, "--bad: found \"20\"; expected STRING,DOM"},
     {"BadOfThreeNumbers", "--bad 20,30,1", 2, "--bad: found \"20,30,1\""},
     {"BadEndsInSemicolon", "--bad '20,30;'", 2, "--bad: found \"\""},
@@ -195,8 +183,9 @@ const Case cases[] = {
     {"CapInWords", "--charge-cap many", 2, "--charge-cap: found \"many\""},
 };
 
-INSTANTIATE_TEST_SUITE_P(CommandLine, WrongDataSelection, testing::ValuesIn(cases),
-                         [](const auto& given) { return given.param.name; });
+INSTANTIATE_TEST_SUITE_P(CommandLine, WrongDataSelection,
+                         testing::ValuesIn(cases_of("reconstruct event.hits --json fit.json ", cases)),
+                         name_of_case);
 
 }  // namespace
 }  // namespace floe::test

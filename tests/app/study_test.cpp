@@ -7,6 +7,7 @@
 
 #include "tests/app/floe_runner.h"
 #include "tests/app/small_detector.h"
+#include "tests/app/wrong_cases.h"
 #include "tests/unit/data/temporary_folder.h"
 
 namespace floe::test {
@@ -159,27 +160,16 @@ TEST_F(Study, ExamplesOfItsHelpAreUnderstood) {
   EXPECT_EQ(files_in(folder_.path()), before);
 }
 
-struct Case {
-  std::string name, arguments;
-  int code;
-  std::string said;
-};
-std::ostream& operator<<(std::ostream& stream, const Case& test_case) {
-  return stream << "floe study " << test_case.arguments;
-}
-
-class WrongStudy : public testing::TestWithParam<Case> {};
+class WrongStudy : public testing::TestWithParam<WrongCase> {};
 
 TEST_P(WrongStudy, IsSaidAndLeavesNothing) {
   const TemporaryFolder folder;
-  const Outcome outcome = run_floe(folder.path(), "study " + GetParam().arguments);
-  expect_error(outcome, GetParam().code, GetParam().said);
-  EXPECT_EQ(folder.file_count(), 0u);
+  expect_said_and_nothing_left(folder.path(), GetParam());
 }
 
 const std::string group = "--group 300,1,20 ";
 
-const Case cases[] = {
+const WrongCase cases[] = {
     {"GroupOfTwoNumbers", "--group 300,1", 2, "--group: found \"300,1\""},
     {"GroupOfFourNumbers", "--group 300,1,20,5", 2, "--group: found \"300,1,20,5\""},
     {"EmptyGroup", "--group ''", 2, "--group: found \"\""},
@@ -204,8 +194,7 @@ const Case cases[] = {
     {"RowsAreAFolder", group + "--rows .", 5, ".: could not be opened"},
 };
 
-INSTANTIATE_TEST_SUITE_P(CommandLine, WrongStudy, testing::ValuesIn(cases),
-                         [](const auto& given) { return given.param.name; });
+INSTANTIATE_TEST_SUITE_P(CommandLine, WrongStudy, testing::ValuesIn(cases_of("study ", cases)), name_of_case);
 
 }  // namespace
 }  // namespace floe::test

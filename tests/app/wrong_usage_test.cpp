@@ -3,36 +3,24 @@
 #include <gtest/gtest.h>
 
 #include "tests/app/floe_runner.h"
+#include "tests/app/wrong_cases.h"
 #include "tests/unit/data/temporary_folder.h"
 
 namespace floe::test {
 namespace {
 
-struct Case {
-  std::string name, arguments;
-  int code;
-  std::string said;
-};
-std::ostream& operator<<(std::ostream& stream, const Case& test_case) {
-  return stream << "floe " << test_case.arguments;
-}
-
-class WrongUsage : public testing::TestWithParam<Case> {};
+class WrongUsage : public testing::TestWithParam<WrongCase> {};
 
 TEST_P(WrongUsage, IsSaidAndLeavesNothing) {
   const TemporaryFolder folder;
-  // One readable event, so that a wrong option cannot hide behind a missing file.
-  write_bytes(folder.path() / "event.hits", "HIT 20 30 100.0 400.0 1.5 0.5 1.5 0.5\n");
-  const auto before = files_in(folder.path());
-  const Outcome outcome = run_floe(folder.path(), GetParam().arguments);
-  expect_error(outcome, GetParam().code, GetParam().said);
-  EXPECT_EQ(files_in(folder.path()), before);
+  write_readable_event(folder.path() / "event.hits");
+  expect_said_and_nothing_left(folder.path(), GetParam());
 }
 
 const std::string cascade = "simulate --cascade 20,-40,-300,70,130,1 -o out.h5 ";
 const std::string flasher = "simulate --flasher 63,20 -o out.h5 ";
 
-const Case cases[] = {
+const WrongCase cases[] = {
     {"NoCommand", "", 2, "no command"},
     {"UnknownCommand", "simulat", 2, "did you mean simulate?"},
     {"UnknownOption", cascade + "--seeed 3", 2, "did you mean --seed?"},
@@ -92,8 +80,7 @@ const Case cases[] = {
     {"PictureFolderMissing", "compare event.hits --without tilt --picture no/such/out.svg", 5, "no/such"},
 };
 
-INSTANTIATE_TEST_SUITE_P(CommandLine, WrongUsage, testing::ValuesIn(cases),
-                         [](const auto& given) { return given.param.name; });
+INSTANTIATE_TEST_SUITE_P(CommandLine, WrongUsage, testing::ValuesIn(cases), name_of_case);
 
 TEST(FullDisk, IsAnError) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";

@@ -9,18 +9,15 @@
 #include "data/base/error.h"
 #include "tests/unit/geometry/column_detectors.h"
 #include "tests/unit/geometry/random_places.h"
+#include "tests/unit/geometry/segment.h"
 
 namespace floe {
 namespace {
 
 using test::Random;
 using test::random_direction;
+using test::Segment;
 using test::uniform;
-
-struct Segment {
-  Vec3f origin, direction;
-  float length;
-};
 
 // Passes a module of the column near its widened radius; the slope, the lead and the length are of all
 // kinds: vertical and horizontal ones, ones without length, ones that end about where they meet the module.

@@ -7,18 +7,15 @@
 #include "data/base/constants.h"
 #include "data/base/error.h"
 #include "tests/unit/geometry/random_places.h"
+#include "tests/unit/geometry/segment.h"
 
 namespace floe {
 namespace {
 
 using test::Random;
 using test::random_direction;
+using test::Segment;
 using test::uniform;
-
-struct Segment {
-  Vec3f origin, direction;
-  float length;
-};
 
 // String 36 and half of DeepCore: few enough for the plain finder, and more crowded than anywhere else.
 Detector crowded_part() {

@@ -17,13 +17,26 @@ RandomStream stream_of(int block, int i) {
   return RandomStream(3, 14, static_cast<std::uint64_t>(N * block + i));
 }
 
+struct Block {
+  RandomStreams streams;  // as the photons leave them
+  EmittedPhotons photons;
+};
+
+Block emit_block(const Source& source, int block) {
+  Block result;
+  for (int i = 0; i < N; ++i) result.streams.set(i, stream_of(block, i));
+  source.emit(result.streams, result.photons);
+  return result;
+}
+
+EmittedPhoton emit_alone(const Source& source, RandomStream stream) {
+  return source.emit(stream);
+}
+
 // The photons of many streams are those of each stream alone, and `draws` numbers are used up.
 void expect_the_same_alone(const Source& source, int draws, int blocks = 20) {
   for (int block = 0; block < blocks; ++block) {
-    RandomStreams streams;
-    for (int i = 0; i < N; ++i) streams.set(i, stream_of(block, i));
-    EmittedPhotons many;
-    source.emit(streams, many);
+    const auto [streams, many] = emit_block(source, block);
     for (int i = 0; i < N; ++i) {
       RandomStream alone = stream_of(block, i), advanced = alone;
       const EmittedPhoton photon = source.emit(alone);
@@ -72,8 +85,7 @@ TEST(Emission, OfCascadesIsAlongTheAxisAtTheSpeedOfLight) {
   const CascadeSource source(cascade, spectrum());
   const Vec3 axis = travel_direction(cascade.zenith, cascade.azimuth);
   for (int i = 0; i < 1000; ++i) {
-    RandomStream random = stream_of(0, i);
-    const EmittedPhoton photon = source.emit(random);
+    const EmittedPhoton photon = emit_alone(source, stream_of(0, i));
     const Vec3 offset = photon.position.cast<double>() - cascade.position;
     const double depth = offset.dot(axis);
     ASSERT_GE(depth, -1e-4);
@@ -125,8 +137,7 @@ TEST_F(FlasherEmission, StartsOnTheModulesSurface) {
     const FlasherSource source(detector_, {1, 1}, settings, led_line(405));
     EXPECT_EQ(source.emitting_module(), 0U);
     for (int i = 0; i < 1000; ++i) {
-      RandomStream random = stream_of(1, i);
-      const EmittedPhoton photon = source.emit(random);
+      const EmittedPhoton photon = emit_alone(source, stream_of(1, i));
       const Vec3 place = detector_.modules()[0].position + module_radius * photon.direction.cast<double>();
       ASSERT_NEAR((photon.position.cast<double>() - place).norm(), 0, 1e-5);
       ASSERT_NEAR(photon.time, 17 + module_radius / speed_of_light, 1e-5);
@@ -145,8 +156,7 @@ TEST_F(FlasherEmission, OfAPencilKeepsItsElevation) {
     settings.azimuth = turned ? std::optional<double>() : std::optional(-1.0);
     const FlasherSource source(detector_, {1, 1}, settings, led_line(405));
     for (int i = 0; i < 1000; ++i) {
-      RandomStream random = stream_of(2, i);
-      const EmittedPhoton photon = source.emit(random);
+      const EmittedPhoton photon = emit_alone(source, stream_of(2, i));
       ASSERT_NEAR(photon.direction.z(), std::sin(48 * degree), 1e-6);
       if (!turned) {
         ASSERT_NEAR(std::atan2(photon.direction.y(), photon.direction.x()), -1, 1e-6);
@@ -160,8 +170,7 @@ TEST(Emission, OfPointSourcesIsTheSameAlone) {
   const Vec3 along(1, -2, 2);
   const PointSource beam(Vec3(1, 2, 3), 4, 1000, spectrum(), along);
   expect_the_same_alone(beam, 1);
-  RandomStream random = stream_of(0, 0);
-  const EmittedPhoton photon = beam.emit(random);
+  const EmittedPhoton photon = emit_alone(beam, stream_of(0, 0));
   EXPECT_EQ(photon.position, Vec3f(1, 2, 3));
   EXPECT_EQ(photon.time, 4);
   EXPECT_NEAR((photon.direction.cast<double>() - along / 3).norm(), 0, 1e-6);
@@ -184,10 +193,7 @@ class Unsteady : public OneByOneSource {
 TEST(Emission, OfOneByOneSourcesIsTheSameAlone) {
   const Unsteady source;
   for (int block = 0; block < 20; ++block) {
-    RandomStreams streams;
-    for (int i = 0; i < N; ++i) streams.set(i, stream_of(block, i));
-    EmittedPhotons many;
-    source.emit(streams, many);
+    const auto [streams, many] = emit_block(source, block);
     for (int i = 0; i < N; ++i) {
       RandomStream alone = stream_of(block, i), by_hand = alone;
       const EmittedPhoton photon = source.emit(alone);

@@ -10,30 +10,14 @@
 #include "reco/direct_fit/goodness_of_fit.h"
 #include "reco/event_data.h"
 #include "reco/likelihood/limited_simulation.h"
+#include "tests/unit/reco/one_string.h"
 
 namespace floe {
 namespace {
 
-Detector small_detector() {
-  std::vector<Module> modules;
-  for (int dom = 1; dom <= 4; ++dom) {
-    Module module;
-    module.id = {1, dom};
-    module.position = {0, 0, -17.0 * dom};
-    modules.push_back(module);
-  }
-  return {"four", modules};
-}
+using test::hit;
 
-Hit hit(int dom, double time, float charge = 1) {
-  Hit h;
-  h.module = {1, dom};
-  h.time = time;
-  h.charge = charge;
-  return h;
-}
-
-const Detector detector = small_detector();
+const Detector detector = test::one_string(4, 4);
 
 TEST(DataSelection, BadModulesAreLeftOutOnBothSides) {
   DataSelection selection;

@@ -6,28 +6,16 @@
 #include <numeric>
 
 #include "data/base/error.h"
+#include "tests/unit/reco/one_string.h"
 
 namespace floe {
 namespace {
 
-Detector small_detector() {
-  std::vector<Module> modules;
-  for (int dom = 1; dom <= 6; ++dom) {
-    Module module;
-    module.id = {1, dom};
-    module.position = {0, 0, -17.0 * dom};
-    module.on = dom != 6;
-    modules.push_back(module);
-  }
-  return {"six", modules};
-}
+using test::hit;
 
-Hit hit(int dom, double time, float charge = 1) {
-  Hit h;
-  h.module = {1, dom};
-  h.time = time;
-  h.charge = charge;
-  return h;
+// Six modules, of which the last is off.
+Detector small_detector() {
+  return test::one_string(6, 5);
 }
 
 TEST(EventData, SortsHitsIntoModulesAndBins) {

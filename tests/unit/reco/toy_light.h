@@ -36,6 +36,17 @@ class ToyLight : public ExpectationModel {
     return brightness_ * 400 * beam * std::exp(light.log_light + point_light(distance, {30, 100}).log_light);
   }
 
+  // Light arrives after its time of flight [ns], and then after a gamma distribution of this shape and scale
+  // [ns].
+  struct Delay {
+    double flight, shape, scale;
+  };
+  static Delay delay(const LightCentre& light, const Vec3& module) {
+    const Vec3 way = module - light.position;
+    const double distance = soft_distance(way), ahead = light.direction.dot(way) / distance;
+    return {light_slowness() * distance, 0.7 + distance / 60, 30 + 15 * (1 - ahead)};
+  }
+
   LightSample sample(const LightRequest& request) override {
     std::mt19937_64 random(seed_ * 1000003 + request.stream);
     const LightCentre light = light_centre(request.cascade, CascadeKind::electron);
@@ -49,13 +60,12 @@ class ToyLight : public ExpectationModel {
     for (std::uint32_t m = 0; m < modules.size(); ++m) {
       const double mean = result.repeats * mean_charge(light, modules[m].position);
       if (mean < 1e-6) continue;
-      const Vec3 way = modules[m].position - light.position;
-      const double distance = soft_distance(way), ahead = light.direction.dot(way) / distance;
-      std::gamma_distribution<double> delay(0.7 + distance / 60, 30 + 15 * (1 - ahead));
+      const Delay law = delay(light, modules[m].position);
+      std::gamma_distribution<double> later(law.shape, law.scale);
       const long n = std::poisson_distribution<long>(mean)(random);
       for (long i = 0; i < n; ++i)
-        hits.emplace_back(m, static_cast<float>(light.time - request.cascade.time +
-                                                light_slowness() * distance + delay(random)));
+        hits.emplace_back(m,
+                          static_cast<float>(light.time - request.cascade.time + law.flight + later(random)));
     }
     fill(result, modules.size(), std::move(hits));
     return result;
