@@ -34,7 +34,8 @@ constexpr double same_place = 8, same_direction = 25 * degree;  // [m]
 constexpr double hopeless = 8, hopeless_errors = 3;
 // And one that is not even so much worse competes with the best.
 constexpr double competing = 3, competing_errors = 1;
-constexpr int contest_parts = 4;  // independent simulations of each minimum
+constexpr std::size_t most_minima = 2;  // to follow
+constexpr int contest_parts = 4;        // independent simulations of each minimum
 constexpr std::uint64_t contest_stream = std::uint64_t{1} << 41;
 
 std::string words(const CascadeParameters& c) {
@@ -134,25 +135,30 @@ Search::RoundEnd Search::settle(LightCentre origin, Stage stage, int most, bool 
   return end;
 }
 
-Search::Minima Search::contest(std::span<const LightCentre> starts, Stage stage, int most_rounds,
-                               bool follow_light) {
-  Minima minima;
-  for (const LightCentre& start : starts) {
-    Minimum minimum{settle(start, stage, most_rounds, follow_light), {}};
-    const LightCentre& light = minimum.end.light;
+// Ends that came together count once.
+std::vector<Search::Minimum> Search::distinct(std::span<const RoundEnd> ends) {
+  std::vector<Minimum> minima;
+  for (const RoundEnd& end : ends) {
     const bool known = std::any_of(minima.begin(), minima.end(), [&](const Minimum& other) {
-      return (other.end.light.position - light.position).norm() < same_place &&
-             other.end.light.direction.dot(light.direction) > std::cos(same_direction);
+      return (other.end.light.position - end.light.position).norm() < same_place &&
+             other.end.light.direction.dot(end.light.direction) > std::cos(same_direction);
     });
-    if (!known) minima.push_back(std::move(minimum));
+    if (!known) minima.push_back({end, {}});
   }
+  return minima;
+}
+
+std::vector<Search::Minimum> Search::contest(std::span<const RoundEnd> ends, const PhotonNeed& need,
+                                             double slack) {
+  std::vector<Minimum> minima = distinct(ends);
   if (minima.size() < 2) return minima;
   // Equal photons and random numbers for all.
-  const double photons =
-      photons_for(cascade_of(minima.front().end.light, options_.kind), stage.oversize, {3, 2e5, 1e6});
+  const LightCentre& first = minima.front().end.light;
+  const double oversize = training_oversize(data_, first, options_.oversize);
+  const double photons = photons_for(cascade_of(first, options_.kind), oversize, need);
   for (Minimum& minimum : minima) {
     minimum.value =
-        evaluate_cascade(light_, data_, cascade_of(minimum.end.light, options_.kind), photons, stage.oversize,
+        evaluate_cascade(light_, data_, cascade_of(minimum.end.light, options_.kind), photons, oversize,
                          contest_parts, contest_stream + 100 * contests_, options_.model_error);
     for (const LightSample& sample : minimum.value.samples) result_.count_simulation(sample.propagated);
     minimum.value.samples.clear();
@@ -160,10 +166,12 @@ Search::Minima Search::contest(std::span<const LightCentre> starts, Stage stage,
   ++contests_;
   std::sort(minima.begin(), minima.end(),
             [](const Minimum& a, const Minimum& b) { return a.value.neg_llh < b.value.neg_llh; });
+  const Evaluation best = minima.front().value;
   std::erase_if(minima, [&](const Minimum& minimum) {
-    const Difference worse = difference(minimum.value, minima.front().value);
-    return worse.value > hopeless + hopeless_errors * worse.error;
+    const Difference worse = difference(minimum.value, best);
+    return worse.value > hopeless + hopeless_errors * worse.error + slack * best.neg_llh;
   });
+  if (minima.size() > most_minima) minima.resize(most_minima);
   return minima;
 }
 
@@ -173,38 +181,27 @@ Stage Search::rough_stage(const LightCentre& light) {
           photons_for(cascade_of(light, options_.kind), coarse, {3, 6e5, 3e6})};
 }
 
-// On from the minima that are left: the best of them makes the result.
-Search::End Search::follow(Minima minima) {
-  std::vector<LightCentre> starts;
-  for (const Minimum& minimum : minima) starts.push_back(minimum.end.light);
-  minima = contest(starts, rough_stage(starts.front()), most_rough_rounds, true);
-  if (minima.size() > 1) {
-    const Difference worse = difference(minima[1].value, minima[0].value);
-    if (worse.value < competing + competing_errors * worse.error)
-      result_.other_minimum =
-          OtherMinimum{cascade_of(minima[1].end.light, options_.kind), worse.value, worse.error};
-  }
-  return refine(minima.front().end);
-}
-
-Search::End Search::refine(const RoundEnd& rough) {
-  End end;
-  end.light = rough.light;
-  Stage stage;
-  Vector7 errors = rough.errors;
-  bool last_one_moved = true;
-  for (int fine = 0; fine == 0 || (last_one_moved && fine < most_fine_rounds); ++fine) {
+// Rounds at the wanted oversize, with steps that follow the errors.
+Search::RoundEnd Search::sharpen(const RoundEnd& rough) {
+  RoundEnd end = rough;
+  for (int i = 0; i < most_fine_rounds; ++i) {
     const double widest = widest_step(data_, end.light);
-    stage.position_step = std::clamp(2 * errors.head<3>().norm(), std::min(3.0, widest), widest);
-    stage.direction_step = std::clamp(2 * errors.segment<2>(3).norm(), 4 * degree, 18 * degree);
-    stage.oversize = options_.oversize;
-    stage.photons = photons_for(cascade_of(end.light, options_.kind), stage.oversize, {3, 1e6, 5e6});
+    const Stage stage{std::clamp(2 * end.errors.head<3>().norm(), std::min(3.0, widest), widest),
+                      std::clamp(2 * end.errors.segment<2>(3).norm(), 4 * degree, 18 * degree),
+                      options_.oversize,
+                      photons_for(cascade_of(end.light, options_.kind), options_.oversize, {3, 1e6, 5e6})};
     const RoundEnd now = round(end.light, stage, true);
     if (!now.errors.allFinite()) break;  // too little light for narrow steps: the wider ones have to do
-    end.light = now.light;
-    errors = now.errors;
-    last_one_moved = !has_settled(now, stage);
+    end = now;
+    if (has_settled(now, stage)) break;
   }
+  return end;
+}
+
+Search::End Search::finish(const RoundEnd& rough) {
+  End end;
+  end.light = rough.light;
+  const Vector7& errors = rough.errors;
   if (!errors.allFinite()) {
     end.trouble = "the data do not determine all seven numbers";
     end.covariance.setConstant(std::numeric_limits<double>::infinity());
@@ -301,7 +298,7 @@ std::optional<ScoreLikelihood> Search::likelihood() const {
 
 Search::End Search::from(const CascadeParameters& start) {
   const LightCentre light = light_centre(start, options_.kind);
-  return refine(settle(light, rough_stage(light), most_rough_rounds, true));
+  return finish(sharpen(settle(light, rough_stage(light), most_rough_rounds, true)));
 }
 
 Search::End Search::from_scratch(const PointSeed& point) {
@@ -325,10 +322,34 @@ Search::End Search::from_scratch(const PointSeed& point) {
     });
     if (other && starts.size() < most_starts) starts.push_back(candidate.light);
   }
+  return from_starts(starts);
+}
+
+// Large steps first. -ln L of ends that have not yet settled is large, and differences mean as little: the
+// worse of them is only left behind when it is worse by a good part of all.
+Search::End Search::from_starts(std::span<const LightCentre> starts) {
   const double oversize = training_oversize(options_.oversize);
-  const CascadeParameters best = cascade_of(starts.front(), options_.kind);
-  return follow(contest(starts, {15, 25 * degree, oversize, photons_for(best, oversize, {1, 4e5, 2e6})},
-                        most_coarse_rounds, false));
+  const Stage coarse{15, 25 * degree, oversize,
+                     photons_for(cascade_of(starts.front(), options_.kind), oversize, {1, 4e5, 2e6})};
+  std::vector<RoundEnd> ends;
+  for (const LightCentre& start : starts) ends.push_back(settle(start, coarse, most_coarse_rounds, false));
+  std::vector<Minimum> minima = contest(ends, {3, 2e5, 1e6}, 0.5);
+
+  ends.clear();
+  for (const Minimum& minimum : minima)
+    ends.push_back(settle(minimum.end.light, rough_stage(minimum.end.light), most_rough_rounds, true));
+  minima = contest(ends, {10, 2e5, 1e7}, 0.05);
+
+  ends.clear();
+  for (const Minimum& minimum : minima) ends.push_back(sharpen(minimum.end));
+  minima = contest(ends, {20, 1e6, 2e7}, 0);
+  if (minima.size() > 1) {
+    const Difference worse = difference(minima[1].value, minima[0].value);
+    if (worse.value < competing + competing_errors * worse.error)
+      result_.other_minimum =
+          OtherMinimum{cascade_of(minima[1].end.light, options_.kind), worse.value, worse.error};
+  }
+  return finish(minima.front().end);
 }
 
 }  // namespace floe

@@ -67,7 +67,8 @@ class Search {
                    std::span<const LightSample* const> samples) const;
   static bool has_settled(const RoundEnd& end, const Stage& stage);
   RoundEnd settle(LightCentre origin, Stage stage, int most, bool follow_light);
-  End refine(const RoundEnd& rough);
+  RoundEnd sharpen(const RoundEnd& rough);
+  End finish(const RoundEnd& rough);
   // Errors as far as they are known, how far apart and with how many photons to simulate in the next
   // calibration.
   struct CalibrationNeed {
@@ -82,11 +83,11 @@ class Search {
     RoundEnd end;
     Evaluation value;
   };
-  using Minima = std::vector<Minimum>;
-  // Settles from each start and sorts the ends by what fresh simulations say, best first; ends that came
-  // together count once, and hopeless ones are left behind.
-  Minima contest(std::span<const LightCentre> starts, Stage stage, int most_rounds, bool follow_light);
-  End follow(Minima minima);
+  static std::vector<Minimum> distinct(std::span<const RoundEnd> ends);
+  // Sorts ends by what fresh simulations of so many photons say, best first; ends that came together count
+  // once, and those worse in -ln L by more than its noise and `slack` times the best are left behind.
+  std::vector<Minimum> contest(std::span<const RoundEnd> ends, const PhotonNeed& need, double slack);
+  End from_starts(std::span<const LightCentre> starts);
   Stage rough_stage(const LightCentre& light);
   void report(double within_round, const std::string& what);
 
