@@ -14,18 +14,9 @@ namespace {
 constexpr double scan_share = 0.15;   // of the progress bar
 constexpr double usual_rounds = 9;    // of a fit, for the progress bar
 constexpr double charge_per_gev = 2;  // of a contained cascade, roughly [photoelectrons]
-constexpr int most_coarse_rounds = 3, most_rough_rounds = 8, most_fine_rounds = 2, most_calibrations = 6;
-constexpr int most_rounds_without_score = 5;
-constexpr double acceptable_pull = 1.5;  // of the last step of all
-constexpr double usual_pull = 1.5;       // of a step that noise makes: the largest of seven
-// Of calibrations: new photons even where there are enough already, and what weights may lose (see
-// InformationBound) before they are taught with more photons, up to so many times the usual.
-constexpr double least_fresh_share = 0.2, acceptable_loss = 1.3, most_training = 6;
-constexpr double acceptable_dispersion = 1.8, least_reach = 0.3;
-constexpr double close_enough = 1.2;  // last steps, in steps of the narrow design
-constexpr double design_reach = 2.4;  // how far simulations are used, in steps from the origin
-// [photoelectrons] expected: hardly any module stays dark.
-constexpr double surely_seen = 4;
+constexpr int most_coarse_rounds = 3, most_rough_rounds = 8, most_fine_rounds = 2;
+constexpr double usual_pull = 1.5;               // of a step that noise makes: the largest of seven
+constexpr double design_reach = 2.4;             // how far simulations are used, in steps from the origin
 constexpr double other_direction = 50 * degree;  // apart: worth following both
 constexpr std::size_t most_starts = 3;
 // Two ends so close together are one minimum.
@@ -196,104 +187,6 @@ Search::RoundEnd Search::sharpen(const RoundEnd& rough) {
     if (has_settled(now, stage)) break;
   }
   return end;
-}
-
-Search::End Search::finish(const RoundEnd& rough) {
-  End end;
-  end.light = rough.light;
-  const Vector7& errors = rough.errors;
-  if (!errors.allFinite()) {
-    end.trouble = "the data do not determine all seven numbers";
-    end.covariance.setConstant(std::numeric_limits<double>::infinity());
-    return end;
-  }
-  CalibrationNeed need{{errors.head<3>().norm(), errors.segment<2>(3).norm()}};
-  for (int i = 0; i < most_calibrations && !end.converged && !end.unsolved; ++i) calibrate(end, need);
-  end.unsolved |= !end.converged && end.pull >= acceptable_pull;
-  if (end.unsolved) {
-    // Too little light for the score's seven sums: the emulator's own minimum and curvature are what is left.
-    Stage wide = calibration_stages(data_, end.light, need.errors, need.reach, options_.oversize).wide;
-    wide.photons = photons_for(cascade_of(end.light, options_.kind), wide.oversize, {300, 2e6, 2e7});
-    const RoundEnd last = settle(end.light, wide, most_rounds_without_score, true);
-    end.light = last.light;
-    end.covariance = covariance_of(last.fit.information);
-    end.converged = has_settled(last, wide);
-    if (!end.converged) end.trouble = "the data do not determine all seven numbers";
-  }
-  end.converged |= !end.unsolved;
-  return end;
-}
-
-// Simulations near by that have so many photons together: as many as are missing are made.
-std::vector<const LightSample*> Search::enough(const LocalFrame& frame, Stage stage, double photons,
-                                               Purpose purpose) {
-  double known = 0;
-  for (const LightSample* sample : near(frame, stage, purpose)) known += double(sample->propagated);
-  stage.photons = std::max(photons - known, least_fresh_share * photons);
-  simulate(frame, stage, purpose);
-  return near(frame, stage, purpose);
-}
-
-// Two draws of a wide design with wide modules teach the weights, two narrow ones at the wanted oversize say
-// what the weighted sums mean.
-void Search::calibrate(End& end, CalibrationNeed& need) {
-  const LocalFrame frame(end.light);
-  const CascadeParameters here = cascade_of(end.light, options_.kind);
-  const auto [wide, narrow] =
-      calibration_stages(data_, end.light, need.errors, need.reach, options_.oversize);
-  const double for_training = need.training * photons_for(here, wide.oversize, {100, 1e6, 1e7});
-  const double for_judging = photons_for(here, narrow.oversize, {5, 2e6, 3.2e7});
-  const std::vector<const LightSample*> training[2] = {
-      enough(frame, wide, for_training, Purpose::first_emulator),
-      enough(frame, wide, for_training, Purpose::second_emulator)};
-  const std::vector<const LightSample*> fresh[2] = {
-      enough(frame, narrow, for_judging, Purpose::first_judge),
-      enough(frame, narrow, for_judging, Purpose::second_judge)};
-  std::vector<const LightSample*> all = fresh[0];
-  all.insert(all.end(), fresh[1].begin(), fresh[1].end());
-  end.edges = arrival_edges(data_, frame, all, options_.kind, surely_seen);
-  calibration_ = std::make_unique<Calibration>(Calibration{
-      data_.with_edges(arrival_edges(data_, frame, all, options_.kind)), need.errors.position, {}, {}});
-  auto& folds = calibration_->folds;
-  for (int fold = 0; fold < 2; ++fold)
-    folds.push_back(
-        {emulate(calibration_->data, end.light, wide, training[fold]), training[fold], fresh[fold]});
-  const ScoreSolution& solution = calibration_->solution =
-      solve_calibrated_score(calibration_->data, std::span<const ScoreFold, 2>(folds), need.errors.position);
-  if (!solution.converged && !solution.leaves) {
-    end.unsolved = true;
-    end.covariance.setConstant(std::numeric_limits<double>::infinity());
-    return;
-  }
-  end.light = frame.at(solution.step);
-  end.covariance = solution.covariance;
-  if (options_.data_widened)
-    end.covariance += std::max(0.0, solution.dispersion - 1) * solution.data_covariance;
-  const Vector7 found = solution.covariance.diagonal().cwiseSqrt();
-  end.pull = solution.leaves ? std::numeric_limits<double>::infinity()
-                             : solution.step.cwiseAbs().cwiseQuotient(found).maxCoeff();
-  const bool inside = solution.step.head<3>().norm() < close_enough * narrow.position_step &&
-                      solution.step.segment<2>(3).norm() < close_enough * narrow.direction_step;
-  const bool smooth = solution.dispersion < acceptable_dispersion || need.reach <= least_reach;
-  const bool enough_light = solution.weight_loss < acceptable_loss || need.training >= most_training;
-  end.converged = solution.converged && (inside || end.pull < 1) && enough_light && smooth;
-  result_.rounds.push_back({cascade_of(end.light, options_.kind), folds[0].emulator.neg_llh(solution.step),
-                            narrow.position_step, narrow.direction_step, narrow.oversize, end.pull});
-  if (!smooth) {  // simulations reach further than the emulator can follow
-    need.reach = std::max(least_reach, 0.6 * need.reach);
-    return;
-  }
-  // The emulators' errors, which a search begins with, may be far too small.
-  const PlaceErrors now = place_errors(solution.data_covariance);
-  need.errors.position = std::clamp(now.position, 0.5 * need.errors.position, 1.5 * need.errors.position);
-  need.errors.direction = std::clamp(now.direction, 0.5 * need.errors.direction, 1.5 * need.errors.direction);
-  if (!enough_light) need.training = std::min(most_training, 3 * need.training);
-}
-
-std::optional<ScoreLikelihood> Search::likelihood() const {
-  if (!calibration_ || !calibration_->solution.converged) return std::nullopt;
-  return score_likelihood(calibration_->data, std::span<const ScoreFold, 2>(calibration_->folds),
-                          calibration_->solution, calibration_->position_error);
 }
 
 Search::End Search::from(const CascadeParameters& start) {
