@@ -15,11 +15,11 @@ struct KeptLane {
   std::int32_t scatters;
 
   static KeptLane of(const Lanes& lanes, int lane) {
-    return {lanes.stream(lane),           lanes.nx[lane],      lanes.ny[lane], lanes.nz[lane],
+    return {lanes.random[lane],           lanes.nx[lane],      lanes.ny[lane], lanes.nz[lane],
             lanes.scattering_depth[lane], lanes.scatters[lane]};
   }
   void put_back(Lanes& lanes, int lane) const {
-    lanes.set_stream(lane, stream);
+    lanes.random.set(lane, stream);
     lanes.nx[lane] = nx;
     lanes.ny[lane] = ny;
     lanes.nz[lane] = nz;
@@ -93,10 +93,10 @@ float ColumnLanes::absorption_depth_at(const Lanes& lanes, int lane, float dista
 // Inside a column the crystals' strengths are 0, so that their step changes nothing; it draws no numbers.
 void ColumnLanes::advance(Lanes& lanes) {
   std::vector<RandomStream> streams;
-  for (const CutLane& cut : cuts_) streams.push_back(lanes.stream(cut.lane));
+  for (const CutLane& cut : cuts_) streams.push_back(lanes.random[cut.lane]);
   floe::advance(ice_, lanes);
   for (std::size_t i = 0; i < cuts_.size(); ++i)
-    if (cuts_[i].in_column) lanes.set_stream(cuts_[i].lane, streams[i]);
+    if (cuts_[i].in_column) lanes.random.set(cuts_[i].lane, streams[i]);
 }
 
 void ColumnLanes::scatter(Lanes& lanes) {
@@ -110,11 +110,11 @@ void ColumnLanes::scatter(Lanes& lanes) {
       going_on_.push_back(lane);
       continue;
     }
-    RandomStream random = lanes.stream(lane);
+    RandomStream random = lanes.random[lane];
     const float loss = scattering_.one_minus_cos(random.uniform());
     const TurnFunctions<float> turn = turn_functions(random.uniform());
     deflect(loss, turn.cosine, turn.sine, lanes.nx[lane], lanes.ny[lane], lanes.nz[lane]);
-    lanes.set_stream(lane, random);
+    lanes.random.set(lane, random);
     ++lanes.scatters[lane];
   }
 }

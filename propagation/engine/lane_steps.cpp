@@ -21,8 +21,7 @@ constexpr int N = Lanes::count;
 constexpr float endless = 1e30f;  // longer than any path [m]
 
 inline float draw(Lanes& lanes, int i) {
-  return RandomStream::to_uniform(
-      RandomStream::next(lanes.random0[i], lanes.random1[i], lanes.random2[i], lanes.random3[i]));
+  return lanes.random.uniform(i);
 }
 
 using Columns = float[8][N];
@@ -112,7 +111,7 @@ inline float limited_reach(float reach, int next, int last) {
   return next > last ? endless : above_bottom;
 }
 
-// Takes one lane's segment, of which `piece` was the part before, through the layer it goes on into.
+// Takes one lane's segment through the layer that it goes on into.
 inline std::int32_t through_next_layer(const float* layer_row, std::ptrdiff_t stride, Lanes& lanes, int i,
                                        float factor, float through, int last, std::int32_t going) {
   const Coefficients ice = coefficients(layer_row, stride, lanes, i, factor);

@@ -9,7 +9,7 @@ namespace floe {
 
 struct alignas(64) Lanes {
   // A multiple of every vector width; small enough that all of it stays in the first-level cache.
-  static constexpr int count = 64;
+  static constexpr int count = RandomStreams::count;
   template <typename T>
   using Array = T[count];
 
@@ -19,7 +19,7 @@ struct alignas(64) Lanes {
   // Its wavelength [nm] and the wavelength's factors in the layers' coefficients (IceLayer).
   Array<float> wavelength, scattering_power, absorption_dust, absorption_thermal;
   // Its random stream.
-  Array<std::uint32_t> random0, random1, random2, random3;
+  RandomStreams random;
 
   // The segment under way: optical depth to its scatter, height above the lowest layer's floor at its
   // start [layers], length [m], birefringence strengths along it [m], last layer; the depths before it.
@@ -53,10 +53,7 @@ struct alignas(64) Lanes {
     absorption_dust[lane] = newborns.absorption_dust[which];
     absorption_thermal[lane] = newborns.absorption_thermal[which];
     slowness[lane] = newborns.slowness[which];
-    random0[lane] = newborns.streams.state0[which];
-    random1[lane] = newborns.streams.state1[which];
-    random2[lane] = newborns.streams.state2[which];
-    random3[lane] = newborns.streams.state3[which];
+    random.set(lane, newborns.streams[which]);
     number[lane] = photon_number;
     scatters[lane] = 0;
   }
@@ -67,20 +64,9 @@ struct alignas(64) Lanes {
     absorption_depth[lane] = absorption_budget[lane] = 0;
     wavelength[lane] = 400;
     scattering_power[lane] = absorption_dust[lane] = absorption_thermal[lane] = slowness[lane] = 1;
-    set_stream(lane, RandomStream(0, 0, static_cast<std::uint64_t>(lane)));
+    random.set(lane, RandomStream(0, 0, static_cast<std::uint64_t>(lane)));
     number[lane] = -1;
     scatters[lane] = 0;
-  }
-
-  void set_stream(int lane, const RandomStream& stream) {
-    const auto& state = stream.state();
-    random0[lane] = state[0];
-    random1[lane] = state[1];
-    random2[lane] = state[2];
-    random3[lane] = state[3];
-  }
-  RandomStream stream(int lane) const {
-    return RandomStream({random0[lane], random1[lane], random2[lane], random3[lane]});
   }
 };
 

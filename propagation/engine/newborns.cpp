@@ -20,7 +20,7 @@ void start_streams(const PhotonBatch& batch, std::uint64_t first, RandomStreams&
     streams.state0[i] = drawn.word0;
     streams.state1[i] = drawn.word1;
     streams.state2[i] = drawn.word2;
-    streams.state3[i] = drawn.word3 | 1;
+    streams.state3[i] = drawn.word3;
   }
 }
 

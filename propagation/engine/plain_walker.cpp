@@ -12,6 +12,7 @@
 #include "propagation/engine/birefringence.h"
 #include "propagation/engine/directions.h"
 #include "propagation/engine/hole_ice.h"
+#include "propagation/engine/meeting_modules.h"
 #include "propagation/engine/photon_acceptance.h"
 #include "propagation/engine/scattering.h"
 #include "propagation/engine/walker.h"
@@ -183,7 +184,7 @@ class PlainWalker : public PhotonWalker {
     const auto length = static_cast<float>(piece.length);
     std::vector<ModuleCrossing> crossings;
     finder_->find(origin, direction, length, crossings);
-    const float back_home = distance_to_emitter(photon, length, task);
+    const float back_home = distance_to_emitter(photon, origin, direction, length, task);
     for (const ModuleCrossing& crossing : crossings) {
       if (task.emitter == crossing.module) continue;
       if (crossing.distance > back_home) break;
@@ -198,26 +199,18 @@ class PlainWalker : public PhotonWalker {
     return back_home <= length;
   }
 
-  // Along the path, to the emitting module at its nominal size; endless where the path does not lead there.
-  // Asked for apart from the finder: whoever is close by may already be inside the widened shape.
-  float distance_to_emitter(const Photon& photon, float length, const Task& task) const {
-    constexpr float endless = std::numeric_limits<float>::infinity();
-    if (!task.emitter || !photon.scattered) return endless;
-    const Vec3f centre = model_.detector->modules()[*task.emitter].position.cast<float>();
-    ModuleCrossing crossing{};
-    return cross_module(centre, 1, photon.position.cast<float>(), photon.direction.cast<float>(), length,
-                        crossing)
-               ? crossing.distance
-               : endless;
+  // Infinite for a photon on its way out.
+  float distance_to_emitter(const Photon& photon, const Vec3f& origin, const Vec3f& direction, float length,
+                            const Task& task) const {
+    if (!task.emitter || !photon.scattered) return std::numeric_limits<float>::infinity();
+    return distance_home(model_.detector->modules()[*task.emitter].position.cast<float>(), origin, direction,
+                         length);
   }
 
-  // Photons whose absorption is stretched by k survive the optical depth d with exp(-d/k): they count as
-  // what makes exp(-d) of it.
   float weight(const Photon& photon, const Piece& piece, double distance, double stretch) const {
     if (stretch == 1) return 1;
     const Piece flown = piece.in_column ? piece_in_column(photon, distance) : piece_in_ice(photon, distance);
-    const double depth = photon.absorption_budget - flown.absorption_depth;
-    return static_cast<float>(std::exp(-depth * (1 - 1 / stretch)));
+    return weight_of_stretched(photon.absorption_budget - flown.absorption_depth, stretch);
   }
 
   void birefringent_step(Photon& photon, const Piece& piece, RandomStream& random) const {

@@ -10,7 +10,8 @@
 
 namespace floe {
 
-// Four words from Philox4x32-10 (Salmon et al. 2011) for a photon's coordinates.
+// The state that a photon's stream begins with: four words from Philox4x32-10 (Salmon et al. 2011) for its
+// coordinates.
 struct PhiloxWords {
   std::uint32_t word0, word1, word2, word3;
 };
@@ -19,7 +20,7 @@ inline PhiloxWords philox(std::uint64_t seed, std::uint64_t source, std::uint64_
   const auto drawn =
       r123::Philox4x32()({{word(photon, 0), word(photon, 32), word(source, 0), word(source, 32)}},
                          {{word(seed, 0), word(seed, 32)}});
-  return {drawn[0], drawn[1], drawn[2], drawn[3]};
+  return {drawn[0], drawn[1], drawn[2], drawn[3] | 1};  // never all zero
 }
 
 // xoshiro128++ (Blackman and Vigna 2021), its state drawn with the counter-based Philox4x32-10
@@ -29,7 +30,6 @@ class RandomStream {
   RandomStream(std::uint64_t seed, std::uint64_t source, std::uint64_t photon) {
     const PhiloxWords drawn = philox(seed, source, photon);
     state_ = {drawn.word0, drawn.word1, drawn.word2, drawn.word3};
-    state_[3] |= 1;  // never all zero
   }
 
   // A stream that goes on from the state of another one.

@@ -12,6 +12,7 @@
 #include "propagation/engine/column_lanes.h"
 #include "propagation/engine/hole_ice.h"
 #include "propagation/engine/lane_steps.h"
+#include "propagation/engine/meeting_modules.h"
 #include "propagation/engine/newborns.h"
 #include "propagation/engine/photon_acceptance.h"
 #include "propagation/engine/walker.h"
@@ -143,23 +144,19 @@ class VectorWalker : public PhotonWalker {
     }
     const float back_home = distance_to_emitter(work, lane, origin, direction);
     if (!work.crossings.empty()) {
-      RandomStream random = lanes.stream(lane);
+      RandomStream random = lanes.random[lane];
       const bool stopped = land(work, lane, direction, back_home, random);
-      lanes.set_stream(lane, random);
+      lanes.random.set(lane, random);
       if (stopped) return true;
     }
     return back_home <= length;
   }
 
-  // Along the path, to the emitting module at its nominal size; endless where the path does not lead there.
-  // Asked for apart from the finder: whoever is close by may already be inside the widened shape.
+  // Infinite for a photon on its way out.
   float distance_to_emitter(const Batch& work, int lane, const Vec3f& origin, const Vec3f& direction) const {
-    constexpr float endless = 1e30f;
-    if (!work.emitter || work.lanes.scatters[lane] == 0) return endless;
-    const Vec3f centre = model_.detector->modules()[*work.emitter].position.cast<float>();
-    ModuleCrossing crossing{};
-    return cross_module(centre, 1, origin, direction, work.lanes.length[lane], crossing) ? crossing.distance
-                                                                                         : endless;
+    if (!work.emitter || work.lanes.scatters[lane] == 0) return std::numeric_limits<float>::infinity();
+    return distance_home(model_.detector->modules()[*work.emitter].position.cast<float>(), origin, direction,
+                         work.lanes.length[lane]);
   }
 
   // True when a module stops the photon.
@@ -179,13 +176,11 @@ class VectorWalker : public PhotonWalker {
     return false;
   }
 
-  // Photons whose absorption is stretched by k survive the optical depth d with exp(-d/k): they count as
-  // what makes exp(-d) of it.
   float weight(const Batch& work, int lane, float distance) const {
     const double stretch = work.batch.absorption_stretch;
     if (stretch == 1) return 1;
     const float left = work.column_lanes.absorption_depth_at(work.lanes, lane, distance);
-    return static_cast<float>(std::exp(-(work.lanes.absorption_budget[lane] - left) * (1 - 1 / stretch)));
+    return weight_of_stretched(work.lanes.absorption_budget[lane] - left, stretch);
   }
 
   // Photons end out of order; hits leave in the order of the photons.

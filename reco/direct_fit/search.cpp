@@ -126,13 +126,26 @@ Search::RoundEnd Search::settle(LightCentre origin, Stage stage, int most, bool 
   return end;
 }
 
+bool Search::same_minimum(const LightCentre& a, const LightCentre& b) {
+  return (a.position - b.position).norm() < same_place &&
+         a.direction.dot(b.direction) > std::cos(same_direction);
+}
+
+// All of one contest have the same random numbers.
+Evaluation Search::measure(const LightCentre& light, double oversize, double photons) {
+  Evaluation value = evaluate_cascade(light_, data_, cascade_of(light, options_.kind), photons, oversize,
+                                      contest_parts, contest_stream + 100 * contests_, options_.model_error);
+  for (const LightSample& sample : value.samples) result_.count_simulation(sample.propagated);
+  value.samples.clear();
+  return value;
+}
+
 // Ends that came together count once.
 std::vector<Search::Minimum> Search::distinct(std::span<const RoundEnd> ends) {
   std::vector<Minimum> minima;
   for (const RoundEnd& end : ends) {
     const bool known = std::any_of(minima.begin(), minima.end(), [&](const Minimum& other) {
-      return (other.end.light.position - end.light.position).norm() < same_place &&
-             other.end.light.direction.dot(end.light.direction) > std::cos(same_direction);
+      return same_minimum(other.end.light, end.light);
     });
     if (!known) minima.push_back({end, {}});
   }
@@ -147,13 +160,7 @@ std::vector<Search::Minimum> Search::contest(std::span<const RoundEnd> ends, con
   const LightCentre& first = minima.front().end.light;
   const double oversize = training_oversize(data_, first, options_.oversize);
   const double photons = photons_for(cascade_of(first, options_.kind), oversize, need);
-  for (Minimum& minimum : minima) {
-    minimum.value =
-        evaluate_cascade(light_, data_, cascade_of(minimum.end.light, options_.kind), photons, oversize,
-                         contest_parts, contest_stream + 100 * contests_, options_.model_error);
-    for (const LightSample& sample : minimum.value.samples) result_.count_simulation(sample.propagated);
-    minimum.value.samples.clear();
-  }
+  for (Minimum& minimum : minima) minimum.value = measure(minimum.end.light, oversize, photons);
   ++contests_;
   std::sort(minima.begin(), minima.end(),
             [](const Minimum& a, const Minimum& b) { return a.value.neg_llh < b.value.neg_llh; });
@@ -231,18 +238,35 @@ Search::End Search::from_starts(std::span<const LightCentre> starts) {
   ends.clear();
   for (const Minimum& minimum : minima)
     ends.push_back(settle(minimum.end.light, rough_stage(minimum.end.light), most_rough_rounds, true));
-  minima = contest(ends, {10, 2e5, 1e7}, 0.05);
+  minima = contest(ends, {10, 2e5, 1e7}, 0.2);
 
   ends.clear();
   for (const Minimum& minimum : minima) ends.push_back(sharpen(minimum.end));
-  minima = contest(ends, {20, 1e6, 2e7}, 0);
-  if (minima.size() > 1) {
-    const Difference worse = difference(minima[1].value, minima[0].value);
-    if (worse.value < competing + competing_errors * worse.error)
-      result_.other_minimum =
-          OtherMinimum{cascade_of(minima[1].end.light, options_.kind), worse.value, worse.error};
+  minima = contest(ends, {10, 2e5, 1e7}, 0.15);
+  return minima.size() < 2 ? finish(minima.front().end) : better_of(minima[0].end, minima[1].end);
+}
+
+// Both to their ends, since what is left of the way counts more than the difference.
+Search::End Search::better_of(const RoundEnd& first, const RoundEnd& second) {
+  End ends[2];
+  std::unique_ptr<Calibration> calibrations[2];
+  Evaluation values[2];
+  const PhotonNeed need{20, 1e6, 2e7};
+  const double oversize = training_oversize(data_, first.light, options_.oversize);
+  const double photons = photons_for(cascade_of(first.light, options_.kind), oversize, need);
+  for (int i = 0; i < 2; ++i) {
+    ends[i] = finish(i == 0 ? first : second);
+    calibrations[i] = std::move(calibration_);
+    values[i] = measure(ends[i].light, oversize, photons);
   }
-  return finish(minima.front().end);
+  ++contests_;
+  const int best = values[0].neg_llh <= values[1].neg_llh ? 0 : 1;
+  const Difference worse = difference(values[1 - best], values[best]);
+  if (worse.value < competing + competing_errors * worse.error && !same_minimum(ends[0].light, ends[1].light))
+    result_.other_minimum =
+        OtherMinimum{cascade_of(ends[1 - best].light, options_.kind), worse.value, worse.error};
+  calibration_ = std::move(calibrations[best]);
+  return ends[best];
 }
 
 }  // namespace floe

@@ -83,11 +83,14 @@ class Search {
     RoundEnd end;
     Evaluation value;
   };
+  static bool same_minimum(const LightCentre& a, const LightCentre& b);
+  Evaluation measure(const LightCentre& light, double oversize, double photons);
   static std::vector<Minimum> distinct(std::span<const RoundEnd> ends);
   // Sorts ends by what fresh simulations of so many photons say, best first; ends that came together count
   // once, and those worse in -ln L by more than its noise and `slack` times the best are left behind.
   std::vector<Minimum> contest(std::span<const RoundEnd> ends, const PhotonNeed& need, double slack);
   End from_starts(std::span<const LightCentre> starts);
+  End better_of(const RoundEnd& first, const RoundEnd& second);
   Stage rough_stage(const LightCentre& light);
   void report(double within_round, const std::string& what);
 
