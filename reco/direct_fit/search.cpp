@@ -240,10 +240,8 @@ Search::End Search::from_starts(std::span<const LightCentre> starts) {
     ends.push_back(settle(minimum.end.light, rough_stage(minimum.end.light), most_rough_rounds, true));
   minima = contest(ends, {10, 2e5, 1e7}, 0.2);
 
-  ends.clear();
-  for (const Minimum& minimum : minima) ends.push_back(sharpen(minimum.end));
-  minima = contest(ends, {10, 2e5, 1e7}, 0.15);
-  return minima.size() < 2 ? finish(minima.front().end) : better_of(minima[0].end, minima[1].end);
+  if (minima.size() < 2) return finish(sharpen(minima.front().end));
+  return better_of(minima[0].end, minima[1].end);
 }
 
 // Both to their ends, since what is left of the way counts more than the difference.

@@ -1,6 +1,7 @@
 // The last step of a search: calibrations of the score until one of them moves no further.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "reco/direct_fit/arrival_bins.h"
 #include "reco/direct_fit/search.h"
@@ -30,8 +31,13 @@ Search::End Search::finish(const RoundEnd& rough) {
     return end;
   }
   CalibrationNeed need{{errors.head<3>().norm(), errors.segment<2>(3).norm()}};
-  for (int i = 0; i < most_calibrations && !end.converged && !end.unsolved; ++i) calibrate(end, need);
-  end.unsolved |= !end.converged && end.pull >= acceptable_pull;
+  std::optional<End> found;  // the last solution that stayed near its calibration
+  for (int i = 0; i < most_calibrations && !end.converged && !end.unsolved; ++i) {
+    calibrate(end, need);
+    if (end.pull < acceptable_pull) found = end;
+  }
+  if (!end.converged && found) end = *found;
+  end.unsolved |= !end.converged && !found;
   if (end.unsolved) {
     calibration_.reset();
     // Too little light for the score's seven sums: the emulator's own minimum and curvature are what is left.
