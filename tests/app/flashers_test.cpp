@@ -98,8 +98,8 @@ TEST_F(Flashers, OfOneRingAreTheFlasherOfTheCommandLine) {
   }
 }
 
-// Counts are Poisson draws around 1e8/256 times the efficiencies: some 2e5 and more, so that 1.5% is beyond five
-// sigma.
+// Counts are Poisson draws around 1e8/256 times the efficiencies: some 2e5 and more, so that 1.5% is beyond
+// five sigma.
 TEST_F(Flashers, PhotonsAreThoseOfOneFlash) {
   const std::string run = "[[run]]\nmodule = [63, 20]\n";
   const double one = propagated(run + "photons = 1e8\n");
