@@ -142,7 +142,7 @@ void run_merge(const MergeOptions& options, const std::string& command_line) {
   EventFileWriter writer(options.to, provenance);
   std::size_t hits = 0;
   for (const Event& event : events) {
-    writer.begin_event(event.id, event.truth, event.repeats);
+    writer.begin_event(event.id, event.truth, event.repeats, event.flasher);
     writer.append(event.hits);
     hits += event.hits.size();
   }

@@ -90,6 +90,24 @@ PlannedEvent plan_flasher(const FlasherRequest& request, const Model& model) {
   return event;
 }
 
+PlannedEvent plan_run(const RunToSimulate& planned, const std::string& id, const Model& model) {
+  FlasherSettings settings = flasher_settings(planned.run);
+  settings.photons *= planned.repeats * (planned.whole_line ? 1 : reference_led_share);
+  PlannedEvent event{id, {}, {}, static_cast<double>(planned.repeats), planned.run};
+  event.sources.push_back({std::make_unique<FlasherSource>(
+                               *model.detector, planned.run.module, settings,
+                               planned.whole_line ? led_line(planned.run.wavelength) : reference_led_line()),
+                           false});
+  return event;
+}
+
+std::vector<PlannedEvent> plan_runs(const std::vector<RunToSimulate>& runs, const Model& model) {
+  FlasherRunNames names;
+  std::vector<PlannedEvent> planned;
+  for (const RunToSimulate& run : runs) planned.push_back(plan_run(run, names.next(run.run.module), model));
+  return planned;
+}
+
 PlannedEvent plan_cascade(const Cascade& cascade, const Model& model, std::uint64_t seed) {
   PlannedEvent event{"cascade", {particle_of(cascade)}, {}};
   event.sources.push_back(cascade_source(cascade, model, seed, 0));
@@ -122,6 +140,24 @@ Json flasher_json(const FlasherRequest& request) {
   return json;
 }
 
+Json run_json(const RunToSimulate& planned) {
+  const FlasherRun& run = planned.run;
+  return {{"module", {run.module.string, run.module.dom}},
+          {"leds", name_of(run.leds)},
+          {"orientation_deg", run.orientation / degree},
+          {"wavelength_nm", planned.whole_line ? Json(run.wavelength) : Json()},
+          {"width_deg", run.beam_width / degree},
+          {"pulse_width_ns", run.pulse_width},
+          {"photons", run.photons},
+          {"repeats", planned.repeats}};
+}
+
+Json runs_json(const std::vector<RunToSimulate>& runs) {
+  Json json = Json::array();
+  for (const RunToSimulate& run : runs) json.push_back(run_json(run));
+  return json;
+}
+
 Json cascade_json(const Cascade& cascade) {
   return {{"particle", f2k_name(cascade.kind)},
           {"x", cascade.position.x()},
@@ -137,12 +173,14 @@ Json cascade_json(const Cascade& cascade) {
 
 Json to_json(const LightRequest& request) {
   if (request.flasher) return {{"flasher", flasher_json(*request.flasher)}};
+  if (request.flashers) return {{"flashers", runs_json(*request.flashers)}};
   if (request.cascade) return {{"cascade", cascade_json(*request.cascade)}};
   return {{"f2k", request.f2k.value()}};
 }
 
 std::vector<PlannedEvent> plan_light(const LightRequest& request, const Model& model, std::uint64_t seed) {
   if (request.f2k) return plan_f2k(*request.f2k, model, seed);
+  if (request.flashers) return plan_runs(*request.flashers, model);
   std::vector<PlannedEvent> planned;
   planned.push_back(request.flasher ? plan_flasher(*request.flasher, model)
                                     : plan_cascade(request.cascade.value(), model, seed));

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/flasher_runs_file.h"
 #include "apps/planned_output.h"
 #include "data/event.h"
 #include "propagation/model.h"
@@ -27,6 +28,7 @@ struct FlasherRequest {
 // Exactly one of these is set.
 struct LightRequest {
   std::optional<FlasherRequest> flasher;
+  std::optional<std::vector<RunToSimulate>> flashers;
   std::optional<Cascade> cascade;
   std::optional<std::string> f2k;  // a file
 };
@@ -40,6 +42,9 @@ struct PlannedEvent {
   std::string id;
   std::vector<Particle> truth;
   std::vector<PlannedSource> sources;
+  // The sources hold the light of all repetitions; the event is an average over them.
+  double repeats = 1;
+  std::optional<FlasherRun> flasher = {};
 };
 
 // The events of the request, in order. `seed` draws how bright hadronic cascades are. Throws InputError:

@@ -1,4 +1,4 @@
-// floe simulate: light of a flasher, a cascade or an f2k file, through the ice, to hits in a file.
+// floe simulate: light of flashers, a cascade or an f2k file, through the ice, to hits in a file.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -32,7 +32,7 @@ struct SimulateOptions {
 
   FlasherRequest flasher;
   Cascade cascade;
-  std::string f2k;
+  std::string f2k, flashers;  // files
   std::string flasher_text, cascade_text, particle = "e-";
 };
 
@@ -103,10 +103,15 @@ double parse_stretch(const std::string& text) {
 }
 
 LightRequest light_request(const SimulateOptions& options) {
-  const int given = !options.flasher_text.empty() + !options.cascade_text.empty() + !options.f2k.empty();
-  if (given != 1) throw UsageError("give exactly one of --flasher, --cascade and --f2k");
+  const int given = !options.flasher_text.empty() + !options.flashers.empty() +
+                    !options.cascade_text.empty() + !options.f2k.empty();
+  if (given != 1) throw UsageError("give exactly one of --flasher, --flashers, --cascade and --f2k");
   LightRequest light;
   if (!options.f2k.empty()) light.f2k = options.f2k;
+  if (!options.flashers.empty()) {
+    light.flashers = read_flasher_runs(options.flashers);
+    for (RunToSimulate& run : *light.flashers) run.run.oversize = options.settings.oversize;
+  }
   if (!options.cascade_text.empty()) light.cascade = parse_cascade(options);
   if (!options.flasher_text.empty()) {
     if (options.flasher.photons == 0) throw UsageError("--flasher needs --photons N, e.g. --photons 2e9");
@@ -165,10 +170,10 @@ class Run {
     std::vector<EventResult> results;
     for (const PlannedEvent& event : events) {
       EventResult result{event.id, {}, {}};
-      writer_.begin_event(event.id, event.truth);
+      writer_.begin_event(event.id, event.truth, event.repeats, event.flasher);
       for (const PlannedSource& planned : event.sources) {
         const double share = all > 0 ? simulator_.photons_to_propagate(*planned.source) / all : 0;
-        run_source(planned, event.id, share, result);
+        run_source(planned, event, share, result);
         done_ += share;
       }
       results.push_back(std::move(result));
@@ -177,7 +182,8 @@ class Run {
   }
 
  private:
-  void run_source(const PlannedSource& planned, const std::string& id, double share, EventResult& result) {
+  void run_source(const PlannedSource& planned, const PlannedEvent& event, double share,
+                  EventResult& result) {
     SimulationOptions options;
     options.seed = options_.settings.seed;
     options.stream = stream_++;
@@ -191,6 +197,7 @@ class Run {
       portion.clear();
       for (const SimulatedHit& hit : hits) {
         portion.push_back(to_hit(hit, detector));
+        portion.back().charge = static_cast<float>(portion.back().charge / event.repeats);
         result.modules.insert(hit.module);
       }
       writer_.append(portion);
@@ -198,7 +205,7 @@ class Run {
     Progress progress;
     if (progress_)
       progress = [&](double fraction, const std::string&) {
-        progress_(done_ + share * fraction, "simulating " + id);
+        progress_(done_ + share * fraction, "simulating " + event.id);
       };
     const SimulationSummary summary = simulator_.run(*planned.source, options, sink, progress);
     add(summary, result.summary);
@@ -304,6 +311,8 @@ void add_source_options(CLI::App& app, SimulateOptions& options) {
   auto* cascade = app.add_option("--cascade", options.cascade_text,
                                  "Particle shower: vertex [m], origin of its direction [deg], energy [GeV]")
                       ->type_name("X,Y,Z,ZENITH,AZIMUTH,ENERGY");
+  app.add_option("--flashers", options.flashers, "Flasher runs, an event per [[run]] table of a TOML file")
+      ->type_name("RUNS.toml");
   app.add_option("--f2k", options.f2k, "All particles of an f2k text file, an event per EM line")
       ->type_name("FILE");
 
@@ -363,6 +372,7 @@ void add_simulate(CLI::App& floe, const std::string& command_line) {
       "Examples:\n"
       "  floe simulate --cascade 20,-40,-300,70,130,3000 -o event.h5\n"
       "  floe simulate --flasher 63,20 --photons 1e7 -o flasher.h5\n"
+      "  floe simulate --flashers runs.toml --oversize 16 -o runs.h5\n"
       "  floe simulate --ice my-ice --cascade 20,-40,-300,70,130,1000 --particle hadron --without tilt -o "
       "hadron.h5\n"
       "  floe simulate --flasher 63,20 --photons 1e6 --weighted=6 -o far.h5\n"

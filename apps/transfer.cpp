@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "apps/commands.h"
 #include "apps/common_options.h"
@@ -11,6 +12,7 @@
 #include "apps/planned_output.h"
 #include "data/base/error.h"
 #include "data/event_files.h"
+#include "data/flasher_text.h"
 
 namespace floe {
 
@@ -18,22 +20,35 @@ namespace {
 
 struct TransferOptions {
   std::string from, to;
-  std::string format;  // of export; empty: by suffix
-  std::string event;   // of export; empty: all
+  std::string format;     // of export; empty: by suffix
+  std::string event;      // of export; empty: all
+  bool flashers = false;  // of import: a set of flasher runs
   OutputOptions output;
 };
 
-Json results_json(const std::string& output, const std::vector<Event>& events) {
+// What is left to say of an event once its hits are written.
+struct Transferred {
+  std::string id;
+  std::size_t hits;
+};
+
+std::vector<Transferred> transferred(const std::vector<Event>& events) {
+  std::vector<Transferred> result;
+  for (const Event& event : events) result.push_back({event.id, event.hits.size()});
+  return result;
+}
+
+Json results_json(const std::string& output, const std::vector<Transferred>& events) {
   Json json = {{"output", output}, {"events", Json::array()}};
-  for (const Event& event : events)
-    json["events"].push_back({{"event", event.id}, {"hits", event.hits.size()}});
+  for (const Transferred& event : events)
+    json["events"].push_back({{"event", event.id}, {"hits", event.hits}});
   return json;
 }
 
-void print_results(const TransferOptions& options, const std::vector<Event>& events) {
+void print_results(const TransferOptions& options, const std::vector<Transferred>& events) {
   if (options.output.quiet) return;
   std::size_t hits = 0;
-  for (const Event& event : events) hits += event.hits.size();
+  for (const Transferred& event : events) hits += event.hits;
   fmt::print("{}: {} event{}, {} hits\n", options.to, events.size(), events.size() == 1 ? "" : "s", hits);
 }
 
@@ -59,29 +74,58 @@ void run_export(const TransferOptions& options) {
   PlannedOutput json(options.output.json);
   std::vector<Event> events = read_event_file(options.from).events;
   if (!options.event.empty()) keep_only(events, options.event);
-  json.write(json_text(results_json(options.to, events)));
+  const std::vector<Transferred> results = transferred(events);
+  json.write(json_text(results_json(options.to, results)));
   export_events(options.to, format, events);
   json.commit();
-  print_results(options, events);
+  print_results(options, results);
+}
+
+Provenance provenance_of(const TransferOptions& options, const std::string& command_line) {
+  Provenance provenance;
+  provenance.version = FLOE_VERSION;
+  provenance.command = command_line;
+  Json configuration = {{"command", "import"}, {"input", options.from}};
+  if (options.flashers) configuration["flashers"] = true;
+  provenance.configuration = configuration.dump();
+  return provenance;
+}
+
+void write_event(EventFileWriter& writer, const Event& event) {
+  writer.begin_event(event.id, event.truth, event.repeats, event.flasher);
+  writer.append(event.hits);
+}
+
+void import_events(const TransferOptions& options, Provenance provenance,
+                   std::optional<EventFileWriter>& writer, std::vector<Transferred>& results) {
+  const std::vector<Event> events = read_event_file(options.from).events;
+  writer.emplace(options.to, provenance);
+  for (const Event& event : events) write_event(*writer, event);
+  results = transferred(events);
+}
+
+// The file's oversize is that of the first run; each run says its own.
+void import_flashers(const TransferOptions& options, Provenance provenance,
+                     std::optional<EventFileWriter>& writer, std::vector<Transferred>& results) {
+  for_each_flasher_run(options.from, [&](const Event& run) {
+    provenance.oversize = run.flasher->oversize;
+    if (!writer) writer.emplace(options.to, provenance);
+    write_event(*writer, run);
+    results.push_back({run.id, run.hits.size()});
+  });
 }
 
 void run_import(const TransferOptions& options, const std::string& command_line) {
   require_event_file_name(options.to);
   PlannedOutput json(options.output.json);
-  const std::vector<Event> events = read_event_file(options.from).events;
-  Provenance provenance;
-  provenance.version = FLOE_VERSION;
-  provenance.command = command_line;
-  provenance.configuration = Json{{"command", "import"}, {"input", options.from}}.dump();
-  EventFileWriter writer(options.to, provenance);
-  for (const Event& event : events) {
-    writer.begin_event(event.id, event.truth, event.repeats);
-    writer.append(event.hits);
-  }
-  json.write(json_text(results_json(options.to, events)));
-  writer.close();
+  std::optional<EventFileWriter> writer;
+  std::vector<Transferred> results;
+  const auto transfer = options.flashers ? import_flashers : import_events;
+  transfer(options, provenance_of(options, command_line), writer, results);
+  json.write(json_text(results_json(options.to, results)));
+  writer->close();
   json.commit();
-  print_results(options, events);
+  print_results(options, results);
 }
 
 }  // namespace
@@ -101,7 +145,8 @@ void add_export(CLI::App& floe) {
       "Examples:\n"
       "  floe export event.h5 -o event.hits\n"
       "  floe export event.h5 -o charges.dat.gz\n"
-      "  floe export event.h5 -o table.txt --format csv");
+      "  floe export event.h5 -o table.txt --format csv\n"
+      "  floe export runs.h5 -o runs.hits");
   app.callback([options] { run_export(*options); });
 }
 
@@ -112,11 +157,16 @@ void add_import(CLI::App& floe, const std::string& command_line) {
       ->type_name("FILE")
       ->required();
   app.add_option("-o,--output", options->to, "Event file to write")->type_name("FILE.h5")->required();
+  app.add_flag(
+      "--flashers", options->flashers,
+      "The text is a set of flasher runs, each opened by a FLASHER line: .hits, .txt, or .dat with charges "
+      "that are averages over the flashes");
   add_output_options(app, options->output);
   app.footer(
       "Examples:\n"
       "  floe import event.hits -o imported.h5\n"
-      "  floe import charges.dat.gz -o charges.h5");
+      "  floe import charges.dat.gz -o charges.h5\n"
+      "  floe import --flashers runs.hits -o imported-runs.h5");
   app.callback([options, command_line] { run_import(*options, command_line); });
 }
 

@@ -13,6 +13,7 @@ find_package(ZLIB REQUIRED)                                # zlib1g-dev
 find_package(fmt REQUIRED)                                 # libfmt-dev
 find_package(CLI11 REQUIRED)                               # libcli11-dev
 find_package(nlohmann_json 3.11 REQUIRED)                  # nlohmann-json3-dev
+find_package(toml11 3.7 REQUIRED)                          # libtoml11-dev
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED) # librandom123-dev
 find_path(XXHASH_INCLUDE_DIR xxhash.h REQUIRED)            # libxxhash-dev (header only)
 if(FLOE_BUILD_TESTS)

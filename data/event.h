@@ -1,21 +1,16 @@
 // What flows through floe: modules are named, photons are detected, events collect them.
 #pragma once
 
-#include <compare>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "data/base/vec3.h"
+#include "data/flasher_run.h"
+#include "data/module_id.h"
 
 namespace floe {
-
-// An optical module's place: string 1-86 (more in other detectors), DOM 1-60 from the top.
-struct ModuleId {
-  int string = 0;
-  int dom = 0;
-  auto operator<=>(const ModuleId&) const = default;
-};
 
 // One detected photon, or one pulse when only time and charge are known.
 struct Hit {
@@ -46,8 +41,9 @@ struct Particle {
 struct Event {
   std::string id;  // unique within its file
   std::vector<Hit> hits;
-  std::vector<Particle> truth;  // empty for measured data
-  double repeats = 1;           // the hits are an average over this many repetitions
+  std::vector<Particle> truth;             // empty for measured data
+  double repeats = 1;                      // the hits are an average over this many repetitions
+  std::optional<FlasherRun> flasher = {};  // when the light is that of a flasher run
 };
 
 // Where a file came from: enough to make it again.

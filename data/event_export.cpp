@@ -1,12 +1,15 @@
 // Events as the texts that other tools read (docs/formats.md).
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
 #include "data/base/atomic_file.h"
 #include "data/base/error.h"
 #include "data/event_files.h"
+#include "data/event_rules.h"
+#include "data/flasher_text.h"
 
 namespace floe {
 
@@ -24,13 +27,19 @@ Angles angles_of(const Vec3f& direction) {
   return {std::atan2(std::hypot(d.x(), d.y()), d.z()), std::atan2(d.y(), d.x())};
 }
 
+// What the charge of a photon is in the event. Of a flasher run, whose FLASHER line says how many flashes
+// there were, the text holds the photons of all of them.
+float photon_charge(const Event& event) {
+  return event.flasher ? static_cast<float>(1 / event.repeats) : 1;
+}
+
 void append_hit(fmt::memory_buffer& text, const Event& event, const Hit& hit) {
   if (!hit.has_direction() || std::isnan(hit.inward.x()) || std::isnan(hit.wavelength))
     throw UsageError(
         fmt::format("event '{}' has hits of unknown direction or wavelength, which a .hits file cannot say. "
                     "Export it as .dat (module, time and charge)",
                     event.id));
-  if (hit.charge != 1)
+  if (hit.charge != photon_charge(event))
     throw UsageError(fmt::format(
         "event '{}' has hits of {} photoelectrons (or photons of that weight), which a .hits file "
         "cannot say: each of its lines is one photon. Export it as .dat (module, time and charge)",
@@ -84,10 +93,15 @@ AppendHit line_of(EventFormat format) {
   return append_csv;
 }
 
+bool are_flasher_runs(std::span<const Event> events) {
+  return std::all_of(events.begin(), events.end(),
+                     [](const Event& event) { return event.flasher.has_value(); });
+}
+
 }  // namespace
 
 EventFormat event_format_of(const std::filesystem::path& path) {
-  const std::string suffix = (path.extension() == ".gz" ? path.stem() : path).extension().string();
+  const std::string suffix = text_suffix_of(path);
   if (suffix == ".hits") return EventFormat::hits;
   if (suffix == ".dat") return EventFormat::dat;
   if (suffix == ".csv") return EventFormat::csv;
@@ -98,22 +112,25 @@ EventFormat event_format_of(const std::filesystem::path& path) {
 
 void export_events(const std::filesystem::path& path, EventFormat format, std::span<const Event> events) {
   if (events.empty()) throw UsageError(path.string() + ": there is no event to export");
-  if (events.size() > 1 && format != EventFormat::csv)
-    throw UsageError(
-        fmt::format("{}: a .hits or .dat file holds one event, not {}. Export one event, or all of "
-                    "them as .csv, which names the event of each hit",
-                    path.string(), events.size()));
+  const bool runs = format == EventFormat::hits && are_flasher_runs(events);
+  if (events.size() > 1 && format != EventFormat::csv && !runs)
+    throw UsageError(fmt::format(
+        "{}: a .hits or .dat file holds one event, not {} (a .hits file also a set of flasher runs). "
+        "Export one event, or all of them as .csv, which names the event of each hit",
+        path.string(), events.size()));
   const AppendHit append = line_of(format);
   TextFileWriter writer(path);
   fmt::memory_buffer text;
   if (format == EventFormat::csv) writer.append(csv_header);
-  for (const Event& event : events)
+  for (const Event& event : events) {
+    if (runs) text.append(flasher_line(event));
     for (const Hit& hit : event.hits) {
       append(text, event, hit);
       if (text.size() < portion) continue;
       writer.append({text.data(), text.size()});
       text.clear();
     }
+  }
   writer.append({text.data(), text.size()});
   writer.close();
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "data/base/error.h"
+#include "data/event_rules.h"
 #include "data/hdf5_reader.h"
 #include "data/text_events.h"
 
@@ -10,7 +11,7 @@ namespace floe {
 
 EventFile read_event_file(const std::filesystem::path& path) {
   if (is_hdf5(path)) return read_hdf5_events(path);
-  const std::string suffix = (path.extension() == ".gz" ? path.stem() : path).extension().string();
+  const std::string suffix = text_suffix_of(path);
   if (suffix == ".h5" || suffix == ".hdf5") return read_hdf5_events(path);
   if (suffix == ".hits" || suffix == ".txt") return {{read_hit_text(path)}, {}};
   if (suffix == ".dat") return {{read_charge_list(path)}, {}};

@@ -23,7 +23,8 @@ class EventFileWriter {
   EventFileWriter(const EventFileWriter&) = delete;
   EventFileWriter& operator=(const EventFileWriter&) = delete;
 
-  void begin_event(const std::string& id, const std::vector<Particle>& truth, double repeats = 1);
+  void begin_event(const std::string& id, const std::vector<Particle>& truth, double repeats = 1,
+                   const std::optional<FlasherRun>& flasher = {});
   void append(std::span<const Hit> hits);  // to the event begun last
   void close();                            // after at least one event
 
@@ -47,9 +48,10 @@ EventFile read_event_file(const std::filesystem::path& path);
 enum class EventFormat { hits, dat, csv };
 EventFormat event_format_of(const std::filesystem::path& path);  // throws UsageError
 
-// Writes one file of text for all events; more than one event in a format without event names is a
-// UsageError that says what to do, and so are hits that the format cannot express (.hits: unknown
-// direction or wavelength, charge or weight other than 1). Text is exact to 1e-3 ns / 1e-6 rad.
+// Writes one file of text for all events; more than one event in a format that cannot tell them apart (.dat;
+// .hits unless all are flasher runs, each with its FLASHER line) is a UsageError that says what to do, and so
+// are hits that the format cannot express (.hits: unknown direction or wavelength, a line that would not be
+// one photon). Text is exact to 1e-3 ns / 1e-6 rad.
 void export_events(const std::filesystem::path& path, EventFormat format, std::span<const Event> events);
 
 // f2k text: one "TR gen igen NAME x y z zenith azimuth length energy time" a line (degrees); "EM"

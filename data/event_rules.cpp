@@ -28,13 +28,20 @@ std::optional<Problem> direction_problem(std::string_view what, const Vec3f& dir
                  "a unit vector, or NaN in all three components when unknown"};
 }
 
+std::optional<Problem> module_problem(ModuleId module) {
+  if (module.string < 1 || module.string > largest_string)
+    return Problem{fmt::format("string {}", module.string), fmt::format("1 to {}", largest_string)};
+  if (module.dom < 1 || module.dom > largest_dom)
+    return Problem{fmt::format("DOM {}", module.dom), fmt::format("1 to {}", largest_dom)};
+  return {};
+}
+
+constexpr double rounding = 1 + 1e-12;  // of a conversion from degrees
+
 }  // namespace
 
 std::optional<Problem> problem_of(const Hit& hit) {
-  if (hit.module.string < 1 || hit.module.string > largest_string)
-    return Problem{fmt::format("string {}", hit.module.string), fmt::format("1 to {}", largest_string)};
-  if (hit.module.dom < 1 || hit.module.dom > largest_dom)
-    return Problem{fmt::format("DOM {}", hit.module.dom), fmt::format("1 to {}", largest_dom)};
+  if (auto problem = module_problem(hit.module)) return problem;
   if (!std::isfinite(hit.time)) return number_problem("time", hit.time, "a finite time [ns]");
   if (!std::isfinite(hit.charge) || hit.charge <= 0)
     return number_problem("charge", hit.charge, "a finite charge above 0 [photoelectrons]");
@@ -51,7 +58,6 @@ std::optional<Problem> problem_of(const Particle& particle) {
     return Problem{fmt::format("position ({}, {}, {})", particle.position.x(), particle.position.y(),
                                particle.position.z()),
                    "finite coordinates [m]"};
-  constexpr double rounding = 1 + 1e-12;  // of a conversion from degrees
   if (!(particle.zenith >= 0 && particle.zenith <= pi * rounding))
     return number_problem("zenith", particle.zenith / degree, "0 to 180 [deg]");
   if (!(particle.azimuth >= 0 && particle.azimuth <= 2 * pi * rounding))
@@ -61,6 +67,25 @@ std::optional<Problem> problem_of(const Particle& particle) {
   if (!std::isfinite(particle.energy) || particle.energy <= 0)
     return number_problem("energy", particle.energy, "a finite energy above 0 [GeV]");
   if (!std::isfinite(particle.time)) return number_problem("time", particle.time, "a finite time [ns]");
+  return {};
+}
+
+std::optional<Problem> problem_of(const FlasherRun& run) {
+  if (auto problem = module_problem(run.module)) return problem;
+  if (!run.leds.valid()) return Problem{"LEDs " + name_of(run.leds), std::string(known_led_patterns)};
+  if (!std::isnan(run.orientation) && !(std::abs(run.orientation) <= 2 * pi * rounding))
+    return number_problem("orientation", run.orientation / degree,
+                          "-360 to 360 [deg], the azimuth of LED 1 and of LED 7");
+  if (!(run.wavelength >= 300 && run.wavelength <= 600))
+    return number_problem("wavelength", run.wavelength, "300 to 600 [nm]");
+  if (!(run.beam_width >= 0 && run.beam_width <= pi / 2 * rounding))
+    return number_problem("beam width", run.beam_width / degree, "0 to 90 [deg]");
+  if (!(run.pulse_width >= 0 && run.pulse_width <= 1000))
+    return number_problem("pulse width", run.pulse_width, "0 to 1000 [ns]");
+  if (!std::isnan(run.photons) && (!std::isfinite(run.photons) || run.photons <= 0))
+    return number_problem("number of photons", run.photons, "a finite number above 0");
+  if (!(run.oversize >= 1 && run.oversize <= 100))
+    return number_problem("oversize", run.oversize, "1 to 100 (1: measured)");
   return {};
 }
 
@@ -78,6 +103,10 @@ std::optional<Problem> problem_of_event(std::string_view id, double repeats) {
 std::string event_name_of(const std::filesystem::path& file) {
   const std::filesystem::path plain = file.extension() == ".gz" ? file.stem() : file.filename();
   return plain.stem().string().substr(0, longest_event_id);
+}
+
+std::string text_suffix_of(const std::filesystem::path& file) {
+  return (file.extension() == ".gz" ? file.stem() : file).extension().string();
 }
 
 bool is_particle_name(std::string_view name) {

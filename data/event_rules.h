@@ -27,11 +27,17 @@ std::optional<Problem> problem_of(const Hit& hit);
 // below 0.
 std::optional<Problem> problem_of(const Particle& particle);
 
+// Module within its range, LEDs that exist, orientation -360 to 360 deg or unknown, wavelength 300 to 600 nm,
+// beam width 0 to 90 deg, pulse width 0 to 1000 ns, photons finite and above 0 or unknown, oversize 1 to 100.
+std::optional<Problem> problem_of(const FlasherRun& run);
+
 // Identifier of 1 to 128 bytes without control characters; repeats finite and above 0.
 std::optional<Problem> problem_of_event(std::string_view id, double repeats);
 
 // The name of an event that has none of its own: the file's, without suffix.
 std::string event_name_of(const std::filesystem::path& file);
+// The suffix that says what a text holds: ".hits" of "a.hits" and of "a.hits.gz".
+std::string text_suffix_of(const std::filesystem::path& file);
 
 // Names of f2k particles: e, e-, e+, gamma, delta, brems, epair, hadr, munu, amu, amu+, amu-, ph.
 bool is_particle_name(std::string_view name);

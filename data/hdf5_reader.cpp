@@ -276,6 +276,30 @@ void check_weights(const TableReader<WeightRow>& table, const std::vector<Event>
   });
 }
 
+// Gives each flasher run to its event. Rows go by event, and an event has one at most.
+void read_flashers(const TableReader<FlasherRow>& table, std::vector<Event>& events) {
+  const Location& where = table.where();
+  std::uint64_t next = 0;  // the first event that may follow
+  table.for_each([&](const FlasherRow& row, hsize_t index) {
+    if (row.event < next || row.event >= events.size())
+      throw InputError(
+          where, fmt::format("event {} in row {} of 'flashers'", row.event, index),
+          fmt::format("a row of 'events' below {}, above that of the row before", events.size()));
+    const std::optional<FlasherRun> run = flasher_of(row);
+    const Problem unknown_leds{
+        "LEDs " + in_quotes(std::string_view(row.leds, strnlen(row.leds, sizeof(row.leds)))),
+        std::string(known_led_patterns)};
+    if (const auto problem = run ? problem_of(*run) : unknown_leds)
+      throw_problem(where, *problem, Table<FlasherRow>::name, index);
+    events[row.event].flasher = run;
+    next = row.event + 1;
+  });
+}
+
+bool has_table(hid_t file, const char* name) {
+  return checked(H5Lexists(file, name, H5P_DEFAULT), "look for a table") > 0;
+}
+
 EventFile read_open_file(hid_t file, const Location& where) {
   const AttributeReader attributes(file, where);
   expect_format(attributes, where);
@@ -290,9 +314,10 @@ EventFile read_open_file(hid_t file, const Location& where) {
   distribute(hits, ranges, ranges.hit_end, hit_of,
              [](Event& event, const Hit& hit) { event.hits.push_back(hit); });
   result.events = std::move(ranges.events);
-  result.provenance->weighted =
-      checked(H5Lexists(file, Table<WeightRow>::name, H5P_DEFAULT), "look for a table") > 0;
+  result.provenance->weighted = has_table(file, Table<WeightRow>::name);
   if (result.provenance->weighted) check_weights(TableReader<WeightRow>(file, where), result.events);
+  if (has_table(file, Table<FlasherRow>::name))
+    read_flashers(TableReader<FlasherRow>(file, where), result.events);
   return result;
 }
 

@@ -41,6 +41,18 @@ constexpr std::array weight_columns = {
     FLOE_COLUMN(WeightRow, dom, int32),          FLOE_COLUMN(WeightRow, hit_count, uint64),
     FLOE_COLUMN(WeightRow, weight_sum, float64), FLOE_COLUMN(WeightRow, squared_weight_sum, float64),
 };
+constexpr std::array flasher_columns = {
+    FLOE_COLUMN(FlasherRow, event, uint64),
+    FLOE_COLUMN(FlasherRow, string, int32),
+    FLOE_COLUMN(FlasherRow, dom, int32),
+    FLOE_COLUMN(FlasherRow, leds, text),
+    FLOE_COLUMN(FlasherRow, orientation_deg, float64),
+    FLOE_COLUMN(FlasherRow, wavelength_nm, float64),
+    FLOE_COLUMN(FlasherRow, width_deg, float64),
+    FLOE_COLUMN(FlasherRow, pulse_width_ns, float64),
+    FLOE_COLUMN(FlasherRow, photons, float64),
+    FLOE_COLUMN(FlasherRow, oversize, float64),
+};
 #undef FLOE_COLUMN
 
 Hdf5Handle padded_text_type(std::size_t size) {
@@ -95,6 +107,9 @@ std::span<const Column> Table<ParticleRow>::columns() {
 std::span<const Column> Table<WeightRow>::columns() {
   return weight_columns;
 }
+std::span<const Column> Table<FlasherRow>::columns() {
+  return flasher_columns;
+}
 std::span<const Column> Table<HitRow>::columns() {
   return hit_columns;
 }
@@ -127,6 +142,27 @@ Hdf5Handle utf8_type(std::size_t size) {
 WeightRow row_of(std::uint64_t event, const ModuleWeights::value_type& module) {
   const auto& [id, sums] = module;
   return {event, id.string, id.dom, sums.hits, sums.sum, sums.squares};
+}
+
+FlasherRow row_of(std::uint64_t event, const FlasherRun& run) {
+  FlasherRow row{
+      event,          run.module.string,       run.module.dom,  {},          run.orientation / degree,
+      run.wavelength, run.beam_width / degree, run.pulse_width, run.photons, run.oversize};
+  name_of(run.leds).copy(row.leds, sizeof(row.leds));
+  return row;
+}
+
+std::optional<FlasherRun> flasher_of(const FlasherRow& row) {
+  const auto leds = led_pattern_of({row.leds, strnlen(row.leds, sizeof(row.leds))});
+  if (!leds) return {};
+  return FlasherRun{{row.string, row.dom},
+                    *leds,
+                    row.orientation_deg * degree,
+                    row.wavelength_nm,
+                    row.width_deg * degree,
+                    row.pulse_width_ns,
+                    row.photons,
+                    row.oversize};
 }
 
 HitRow row_of(const Hit& hit) {

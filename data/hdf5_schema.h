@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -48,6 +49,14 @@ struct WeightRow {
   double weight_sum, squared_weight_sum;
 };
 
+// What is known of an event that is a flasher run.
+struct FlasherRow {
+  std::uint64_t event;  // its row of the table of events
+  std::int32_t string, dom;
+  char leds[16];  // filled up with NUL
+  double orientation_deg, wavelength_nm, width_deg, pulse_width_ns, photons, oversize;
+};
+
 // A table is a one-dimensional data set of compounds.
 template <typename Row>
 struct Table;  // has: name, rows_per_chunk, columns()
@@ -70,6 +79,12 @@ struct Table<WeightRow> {
   static std::span<const Column> columns();
 };
 template <>
+struct Table<FlasherRow> {
+  static constexpr const char* name = "flashers";
+  static constexpr hsize_t rows_per_chunk = 256;
+  static std::span<const Column> columns();
+};
+template <>
 struct Table<HitRow> {
   static constexpr const char* name = "hits";
   static constexpr hsize_t rows_per_chunk = 16384;
@@ -84,6 +99,9 @@ Hdf5Handle row_type_in_file(std::span<const Column> columns);
 Hdf5Handle utf8_type(std::size_t size);
 
 WeightRow row_of(std::uint64_t event, const ModuleWeights::value_type& module);
+FlasherRow row_of(std::uint64_t event, const FlasherRun& run);
+// None where the row's LEDs have no known name.
+std::optional<FlasherRun> flasher_of(const FlasherRow& row);
 HitRow row_of(const Hit& hit);
 Hit hit_of(const HitRow& row);
 ParticleRow row_of(const Particle& particle);

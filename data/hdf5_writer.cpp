@@ -84,7 +84,7 @@ struct EventFileWriter::Impl {
   explicit Impl(std::filesystem::path name) : path(std::move(name)), target(path) {}
   ~Impl() {
     const Hdf5Silence silence;  // what an unfinished file complains about is no news
-    hits.reset(), particles.reset(), events.reset(), weights.reset();
+    hits.reset(), particles.reset(), events.reset(), weights.reset(), flashers.reset();
     file = {};
   }
 
@@ -101,6 +101,10 @@ struct EventFileWriter::Impl {
     if (weights)
       for (const auto& module : module_weights) weights->append(row_of(events->size(), module));
     module_weights.clear();
+    if (current_flasher) {
+      if (!flashers) flashers.emplace(file);
+      flashers->append(row_of(events->size(), *current_flasher));
+    }
     events->append(*current);
     current.reset();
   }
@@ -111,9 +115,11 @@ struct EventFileWriter::Impl {
   std::optional<TableWriter<EventRow>> events;
   std::optional<TableWriter<ParticleRow>> particles;
   std::optional<TableWriter<HitRow>> hits;
-  std::optional<TableWriter<WeightRow>> weights;  // only in weighted simulations
-  ModuleWeights module_weights;                   // of the event begun last
-  std::optional<EventRow> current;                // the event begun last
+  std::optional<TableWriter<WeightRow>> weights;    // only in weighted simulations
+  std::optional<TableWriter<FlasherRow>> flashers;  // only after an event that is a flasher run
+  ModuleWeights module_weights;                     // of the event begun last
+  std::optional<EventRow> current;                  // the event begun last
+  std::optional<FlasherRun> current_flasher;
   std::string current_id;
   std::unordered_set<std::string> ids;
 };
@@ -125,10 +131,12 @@ EventFileWriter::EventFileWriter(std::filesystem::path path, const Provenance& p
 
 EventFileWriter::~EventFileWriter() = default;
 
-void EventFileWriter::begin_event(const std::string& id, const std::vector<Particle>& truth, double repeats) {
+void EventFileWriter::begin_event(const std::string& id, const std::vector<Particle>& truth, double repeats,
+                                  const std::optional<FlasherRun>& flasher) {
   if (!impl_->file.open()) throw std::logic_error("EventFileWriter::begin_event after close");
   expect_valid(problem_of_event(id, repeats), id);
   for (const Particle& particle : truth) expect_valid(problem_of(particle), id);
+  if (flasher) expect_valid(problem_of(*flasher), id);
   if (!impl_->ids.insert(id).second)
     throw UsageError(fmt::format("{}: two events are named '{}'; the names in a file must differ",
                                  impl_->path.string(), id));
@@ -139,6 +147,7 @@ void EventFileWriter::begin_event(const std::string& id, const std::vector<Parti
     for (const Particle& particle : truth) impl_->particles->append(row_of(particle));
     impl_->current = row;
     impl_->current_id = id;
+    impl_->current_flasher = flasher;
   });
 }
 
@@ -157,6 +166,7 @@ void EventFileWriter::close() {
     impl_->finish_event();
     impl_->hits->close(), impl_->particles->close(), impl_->events->close();
     if (impl_->weights) impl_->weights->close();
+    if (impl_->flashers) impl_->flashers->close();
     impl_->file.close("close the file");
   });
   impl_->target.commit();

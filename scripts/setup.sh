@@ -8,7 +8,7 @@ floe_build="$floe_root/build/release"
 floe_packages=(
   cmake ninja-build g++ pkg-config
   libembree-dev libeigen3-dev libceres-dev libhdf5-dev zlib1g-dev
-  libcli11-dev nlohmann-json3-dev libfmt-dev librandom123-dev libxxhash-dev
+  libcli11-dev nlohmann-json3-dev libtoml11-dev libfmt-dev librandom123-dev libxxhash-dev
   libgtest-dev
 )
 

@@ -1,5 +1,7 @@
 #include "propagation/sources/flasher.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -37,6 +39,23 @@ WavelengthSpectrum reference_led_line() {
   return smooth_step_line(404, 399, 409);
 }
 
+FlasherSettings flasher_settings(const FlasherRun& run) {
+  if (std::isnan(run.photons))
+    throw UsageError("a flasher run without its number of photons cannot be simulated");
+  FlasherSettings settings;
+  settings.photons = run.photons;
+  settings.beam_width = run.beam_width;
+  settings.elevation = run.leds.elevation();
+  settings.pulse_width = run.pulse_width;
+  if (run.leds.kind == LedPattern::Kind::ring) return settings;
+  if (std::isnan(run.orientation))
+    throw UsageError(
+        fmt::format("LEDs {} of a module of unknown orientation cannot be simulated", name_of(run.leds)));
+  settings.azimuth = run.orientation + run.leds.azimuth();
+  settings.leds = run.leds.count();
+  return settings;
+}
+
 FlasherSource::FlasherSource(const Detector& detector, ModuleId module, const FlasherSettings& settings,
                              const WavelengthSpectrum& spectrum)
     : settings_(settings),
@@ -48,6 +67,9 @@ FlasherSource::FlasherSource(const Detector& detector, ModuleId module, const Fl
     throw UsageError("a flasher's number of photons must be finite and not negative");
   if (!(settings.beam_width >= 0 && settings.beam_width <= 90 * degree))
     throw UsageError("a flasher's beam width must be between 0 and 90 degrees");
+  if (settings.leds < 1) throw UsageError("a flasher's number of LEDs must be at least 1");
+  if (!(settings.pulse_width >= 0) || !std::isfinite(settings.pulse_width))
+    throw UsageError("a flasher's pulse width must be finite and not negative");
 }
 
 PointSource::PointSource(const Vec3& position, double time, double photons,

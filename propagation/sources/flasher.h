@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "data/flasher_run.h"
 #include "geometry/acceptance.h"
 #include "geometry/detector.h"
 #include "propagation/sources/quantile_table.h"
@@ -24,13 +25,20 @@ struct FlasherSettings {
   double beam_width = 9.7 * degree;  // sigma of the beam; 0: a pencil
   double elevation = -0.2 * degree;  // above the horizontal
   std::optional<double> azimuth;     // of the beam; none: symmetric about the vertical
+  int leds = 1;                      // with an azimuth: so many beams alike, evenly about the vertical
   bool isotropic = false;            // emits into all directions alike
   double time = 0;                   // [ns]
+  double pulse_width = 0;            // photons leave evenly from `time` on for so long [ns]
 };
+
+// The light of one flash of a run. Throws UsageError when its number of photons is unknown, or the module's
+// orientation, where the LEDs' azimuths depend on it.
+FlasherSettings flasher_settings(const FlasherRun& run);
 
 // Photons start on the surface of the emitting module, module_radius from its centre in the photon's
 // direction, with the time that takes in vacuum. The beam is von Mises-Fisher of concentration
-// 1/beam_width^2 about the LED's direction.
+// 1/beam_width^2 about the LED's direction; of several LEDs each gives the same share of the photons. The
+// pulse is a box, the simplest shape; flasher boards make pulses of up to 70 ns.
 class FlasherSource : public Source {
  public:
   FlasherSource(const Detector& detector, ModuleId module, const FlasherSettings& settings,
@@ -45,7 +53,7 @@ class FlasherSource : public Source {
   QuantileTable wavelengths_;
   std::size_t module_;
   Vec3f centre_;
-  Vec3f led_;  // the LED's direction, at azimuth 0 when there are LEDs all around
+  Vec3f led_;  // the first LED's direction, at azimuth 0 when there are LEDs all around
 };
 
 // All photons start at one place and time, into all directions alike, or along `direction`.

@@ -1,5 +1,6 @@
 // Drawing the photons of LEDs and point sources, many at a time: the loops become vector code.
 #include <cmath>
+#include <cstdint>
 
 #include "data/base/constants.h"
 #include "propagation/engine/directions.h"
@@ -62,6 +63,25 @@ void widen_beam(float w, RandomStreams& random, EmittedPhotons& photons) {
   }
 }
 
+// Gives every photon to one of `leds` LEDs that stand evenly about the vertical, all lit alike.
+void turn_to_leds(int leds, RandomStreams& random, EmittedPhotons& photons) {
+  const auto count = static_cast<float>(leds), spacing = 1 / count;
+#pragma omp simd
+  for (int i = 0; i < N; ++i) {
+    const auto led = static_cast<float>(static_cast<std::int32_t>(count * random.uniform(i)));
+    const TurnFunctions<float> turn = turn_functions(spacing * smaller(led, count - 1));
+    const float nx = photons.nx[i], ny = photons.ny[i];
+    photons.nx[i] = turn.cosine * nx - turn.sine * ny;
+    photons.ny[i] = turn.sine * nx + turn.cosine * ny;
+  }
+}
+
+// Delays every photon by its place in a pulse of even brightness.
+void spread_over_pulse(float width, RandomStreams& random, EmittedPhotons& photons) {
+#pragma omp simd
+  for (int i = 0; i < N; ++i) photons.time[i] += width * random.uniform(i);
+}
+
 // `ahead` of a place, along each photon's direction.
 void start_ahead(const Vec3f& place, float ahead, float time, EmittedPhotons& photons) {
   const float x = place.x(), y = place.y(), z = place.z();
@@ -85,9 +105,14 @@ void FlasherSource::emit(RandomStreams& random, EmittedPhotons& photons) const {
     if (!settings_.azimuth) turn_about_vertical(random, photons);
     const auto w = static_cast<float>(settings_.beam_width * settings_.beam_width);
     if (w > 0) widen_beam(w, random, photons);
+    if (settings_.azimuth && settings_.leds > 1) turn_to_leds(settings_.leds, random, photons);
   }
   const auto left = static_cast<float>(settings_.time + module_radius / speed_of_light);
   start_ahead(centre_, static_cast<float>(module_radius), left, photons);
+  // Numbers for the pulse are drawn last, and only for a pulse: without one a seed means the same photons as
+  // ever.
+  if (settings_.pulse_width > 0)
+    spread_over_pulse(static_cast<float>(settings_.pulse_width), random, photons);
 }
 
 void PointSource::emit(RandomStreams& random, EmittedPhotons& photons) const {

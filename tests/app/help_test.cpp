@@ -68,6 +68,9 @@ TEST(Help, ExamplesRunAsPrinted) {
       folder.path() / "events.f2k",
       "EM 1 1 1970 0 0 0\nTR 1 0 e- 20 -40 -300 70 130 0 100 0\nTR 2 0 hadr 20 -40 -300 70 130 0 50 10\n"
       "EM 2 1 1970 0 0 0\nTR 1 0 ph 0 0 -300 90 0 0 10000 0\n");
+  write_bytes(
+      folder.path() / "runs.toml",
+      "[defaults]\nphotons = 1e7\n[[run]]\nmodule = [63, 20]\n[[run]]\nmodule = [63, 20]\nleds = 3\n");
   for (const std::string command : {"info", "simulate", "export", "import"})
     for (const std::string& example : examples_of(command)) {
       const Outcome outcome = run_floe(folder.path(), example);

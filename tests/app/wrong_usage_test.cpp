@@ -14,6 +14,7 @@ class WrongUsage : public testing::TestWithParam<WrongCase> {};
 TEST_P(WrongUsage, IsSaidAndLeavesNothing) {
   const TemporaryFolder folder;
   write_readable_event(folder.path() / "event.hits");
+  write_bytes(folder.path() / "runs.hits", "FLASHER 63 20\nHIT 20 30 100.0 400.0 1.5 0.5 1.5 0.5\n");
   expect_said_and_nothing_left(folder.path(), GetParam());
 }
 
@@ -30,8 +31,9 @@ const WrongCase cases[] = {
     {"OptionTwice", cascade + "--seed 1 --seed 2", 2, "--seed"},
     {"OptionWithoutValue", cascade + "--seed", 2, "--seed"},
     {"NoOutput", "simulate --cascade 20,-40,-300,70,130,1", 2, "--output"},
-    {"NoSource", "simulate -o out.h5", 2, "exactly one of --flasher, --cascade and --f2k"},
+    {"NoSource", "simulate -o out.h5", 2, "exactly one of --flasher, --flashers, --cascade and --f2k"},
     {"TwoSources", cascade + "--flasher 63,20 --photons 1e6", 2, "exactly one of"},
+    {"TwoKindsOfFlashers", flasher + "--photons 1e6 --flashers runs.toml", 2, "exactly one of"},
     {"CascadeOfFiveNumbers", "simulate --cascade 20,-40,-300,70,130 -o out.h5", 2, "expected 6 numbers"},
     {"CascadeWithLetter", "simulate --cascade 20,-4O,-300,70,130,1 -o out.h5", 2, "found \"-4O\""},
     {"CascadeWithNan", "simulate --cascade nan,-40,-300,70,130,1 -o out.h5", 2, "found \"nan\""},
@@ -61,6 +63,7 @@ const WrongCase cases[] = {
     {"UnknownExportFormat", "export event.hits -o out.txt --format root", 2, "--format"},
     {"UnknownEventName", "export event.hits -o out.dat --event other", 2, "--event"},
     {"ImportToText", "import event.hits -o out.hits", 2, ".h5"},
+    {"FlashersFolderMissing", "import --flashers runs.hits -o no/such/out.h5", 5, "no/such"},
     {"UnknownHypothesis", "reconstruct event.hits --hypothesis tau", 2, "--hypothesis"},
     {"NoEvents", "reconstruct", 2, "EVENT"},
     {"NegativeModelError", "reconstruct event.hits --model-error -1", 2, "--model-error"},

@@ -142,6 +142,99 @@ TEST(FlasherSource, IsSymmetricInAzimuthByDefault) {
   EXPECT_NEAR(wavelength.mean, 404, 4 * wavelength.error());
 }
 
+FlasherSettings run_settings(const LedPattern& leds) {
+  FlasherRun run;
+  run.module = {1, 1};
+  run.leds = leds;
+  run.orientation = 20 * degree;
+  run.photons = 1;
+  return flasher_settings(run);
+}
+
+// A Fourier component of the azimuth, taken from the azimuth of LED 1 and LED 7.
+Sample azimuth_component(const FlasherSource& source, int k) {
+  return sample(source, [k](const EmittedPhoton& photon) {
+    return std::cos(k * (std::atan2(photon.direction.y(), photon.direction.x()) - 20 * degree));
+  });
+}
+
+// The mean direction of a von Mises-Fisher beam is its axis times coth(k) - 1/k, which is 1 - 1/k here to 30
+// digits.
+TEST(FlasherSource, SingleLedsPointWhereTheBoardHasThem) {
+  const Model model = test::make_model(test::uniform_tables({}), {Vec3::Zero()});
+  for (const int number : {1, 4, 7, 12}) {
+    const FlasherSettings settings = run_settings({LedPattern::Kind::single, number});
+    const FlasherSource source(*model.detector, {1, 1}, settings, test::line_at_400());
+    const double elevation = number <= 6 ? 48.1 : -0.2, azimuth = 20 + (number - 1) % 6 * 60;
+    const Vec3 led = unit_vector((90 - elevation) * degree, azimuth * degree);
+    for (int axis = 0; axis < 3; ++axis) {
+      const Sample component =
+          sample(source, [axis](const EmittedPhoton& photon) { return photon.direction[axis]; });
+      EXPECT_NEAR(component.mean, led[axis] * (1 - std::pow(settings.beam_width, 2)), 4 * component.error())
+          << "LED " << number << ", axis " << axis;
+    }
+  }
+}
+
+TEST(FlasherSource, SixLedsShareTheLightEvenly) {
+  const Model model = test::make_model(test::uniform_tables({}), {Vec3::Zero()});
+  for (const auto kind : {LedPattern::Kind::horizontal, LedPattern::Kind::tilted}) {
+    FlasherSettings settings = run_settings({kind, 0});
+    settings.beam_width = 0;  // pencils: each photon names its LED
+    const FlasherSource source(*model.detector, {1, 1}, settings, test::line_at_400());
+    int photons_of[6] = {};
+    for (int i = 0; i < draws; ++i) {
+      RandomStream random(1, 0, static_cast<std::uint64_t>(i));
+      const EmittedPhoton photon = source.emit(random);
+      const double turn = std::atan2(photon.direction.y(), photon.direction.x()) / degree - 20;
+      const double led = (turn < -30 ? turn + 360 : turn) / 60;
+      ASSERT_NEAR(led, std::round(led), 1e-5);
+      ASSERT_NEAR(photon.direction.z(), std::sin(settings.elevation), 1e-6);
+      ++photons_of[static_cast<int>(std::lround(led)) % 6];
+    }
+    // Chi-square with 5 degrees of freedom: 30 and more has a probability of 1.5e-5.
+    double chi_square = 0;
+    for (const int photons : photons_of) chi_square += std::pow(photons - draws / 6.0, 2) / (draws / 6.0);
+    EXPECT_LT(chi_square, 30);
+  }
+}
+
+// Sixfold about the vertical: of the azimuth's Fourier components only every sixth is left, and that one is a
+// single LED's.
+TEST(FlasherSource, SixLedsAreSixfoldInAzimuth) {
+  const Model model = test::make_model(test::uniform_tables({}), {Vec3::Zero()});
+  const FlasherSettings settings = run_settings({LedPattern::Kind::tilted, 0});
+  const FlasherSource six(*model.detector, {1, 1}, settings, test::line_at_400());
+  for (const int k : {1, 2, 3, 4, 5}) {
+    const Sample component = azimuth_component(six, k);
+    EXPECT_NEAR(component.mean, 0, 4 * component.error()) << k;
+  }
+  const FlasherSource one(*model.detector, {1, 1}, run_settings({LedPattern::Kind::single, 1}),
+                          test::line_at_400());
+  const Sample of_six = azimuth_component(six, 6), of_one = azimuth_component(one, 6);
+  EXPECT_GT(of_one.mean, 0.2);
+  EXPECT_NEAR(of_six.mean, of_one.mean, 4 * std::hypot(of_six.error(), of_one.error()));
+  const Sample elevation = sample(six, [](const EmittedPhoton& photon) { return photon.direction.z(); });
+  EXPECT_NEAR(elevation.mean, std::sin(48.1 * degree) * (1 - std::pow(settings.beam_width, 2)),
+              4 * elevation.error());
+}
+
+// A box of width W: mean W/2, variance W^2/12, fourth central moment W^4/80.
+TEST(FlasherSource, PulsesAreEvenlyBright) {
+  const Model model = test::make_model(test::uniform_tables({}), {Vec3::Zero()});
+  FlasherSettings settings;
+  settings.photons = 1;
+  settings.time = 100;
+  constexpr double width = 70;
+  settings.pulse_width = width;
+  const FlasherSource source(*model.detector, {1, 1}, settings, test::line_at_400());
+  const Sample time = sample(
+      source, [](const EmittedPhoton& photon) { return photon.time - 100 - module_radius / speed_of_light; });
+  EXPECT_NEAR(time.mean, width / 2, 4 * time.error());
+  const double fourth = std::pow(width, 4) / 80, variance = width * width / 12;
+  EXPECT_NEAR(time.variance, variance, 4 * std::sqrt((fourth - variance * variance) / draws));
+}
+
 TEST(FlasherSource, IsotropicLightFillsTheSphere) {
   const Model model = test::make_model(test::uniform_tables({}), {Vec3::Zero()});
   FlasherSettings settings;

@@ -66,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(
         Malformed{"azimuth in degrees", "a.hits", "HIT 1 2 3 400 1 1 1 130", "found 130 for d_phi [rad]"},
         Malformed{"infinite angle", "a.hits", "HIT 1 2 3 400 1 inf 1 1", "not finite"},
         Malformed{"flasher set", "a.txt", "FLASHER 63 20 wavelength_nm=405\n" GOOD_HIT,
-                  "not readable as events yet"},
+                  "floe import --flashers"},
         Malformed{"lower case keyword", "a.hits", "hit 1 2 3 400 1 1 1 1", "expected 'HIT string DOM"},
         Malformed{"charge list under the wrong name", "a.hits", GOOD_CHARGE, "a file named .dat"},
         Malformed{"two events", "a.hits", "EM 1 1\n" GOOD_HIT "EM 1 2\n" GOOD_HIT,
@@ -76,19 +76,20 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Charges, MalformedTextTest,
-    ::testing::Values(Malformed{"empty file", "a.dat", "", "found no hits at all"},
-                      Malformed{"only comments", "a.dat", "#\n#\n", "found no hits at all"},
-                      Malformed{"zero charge", "a.dat", GOOD_CHARGE "1 2 3 0", ":2: found charge 0"},
-                      Malformed{"negative charge", "a.dat", GOOD_CHARGE "1 2 3 -1", ":2: found charge -1"},
-                      Malformed{"infinite charge", "a.dat", GOOD_CHARGE "1 2 3 inf", "'inf' (not finite)"},
-                      Malformed{"charge beyond a float", "a.dat", "1 2 3 1e300", "charge inf (not finite)"},
-                      Malformed{"charge below a float", "a.dat", "1 2 3 1e-300", "found charge 0"},
-                      Malformed{"time beyond a double", "a.dat", "1 2 1e999 1", "too large or too small"},
-                      Malformed{"missing column", "a.dat", GOOD_CHARGE "1 2 3", ":2: found 3 fields"},
-                      Malformed{"extra column", "a.dat", GOOD_CHARGE "1 2 3 4 5", ":2: found 5 fields"},
-                      Malformed{"letter in the charge", "a.dat", "1 2 3 l",
-                                "expected a number for charge [pe]"},
-                      Malformed{"photons under the wrong name", "a.dat", GOOD_HIT, "found 9 fields"}));
+    ::testing::Values(
+        Malformed{"empty file", "a.dat", "", "found no hits at all"},
+        Malformed{"only comments", "a.dat", "#\n#\n", "found no hits at all"},
+        Malformed{"zero charge", "a.dat", GOOD_CHARGE "1 2 3 0", ":2: found charge 0"},
+        Malformed{"negative charge", "a.dat", GOOD_CHARGE "1 2 3 -1", ":2: found charge -1"},
+        Malformed{"infinite charge", "a.dat", GOOD_CHARGE "1 2 3 inf", "'inf' (not finite)"},
+        Malformed{"charge beyond a float", "a.dat", "1 2 3 1e300", "charge inf (not finite)"},
+        Malformed{"charge below a float", "a.dat", "1 2 3 1e-300", "found charge 0"},
+        Malformed{"time beyond a double", "a.dat", "1 2 1e999 1", "too large or too small"},
+        Malformed{"missing column", "a.dat", GOOD_CHARGE "1 2 3", ":2: found 3 fields"},
+        Malformed{"extra column", "a.dat", GOOD_CHARGE "1 2 3 4 5", ":2: found 5 fields"},
+        Malformed{"letter in the charge", "a.dat", "1 2 3 l", "expected a number for charge [pe]"},
+        Malformed{"flasher set", "a.dat", "FLASHER 63 20\n" GOOD_CHARGE, ":1: found 'FLASHER 63 20'"},
+        Malformed{"photons under the wrong name", "a.dat", GOOD_HIT, "found 9 fields"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Names, MalformedTextTest,

@@ -52,6 +52,11 @@ inline std::vector<Particle> sample_truth() {
           {"amu+", {1.5, 2.5, -3.5}, pi, 0, 12.25, 1e3, -7.5}};
 }
 
+// A run with everything known.
+inline FlasherRun sample_flasher() {
+  return {{63, 20}, {LedPattern::Kind::single, 9}, -30 * degree, 370, 5 * degree, 70, 2.5e10, 16};
+}
+
 inline Provenance sample_provenance() {
   return {"0.1.0",
           "floe simulate --seed 7",
@@ -67,13 +72,17 @@ inline Provenance sample_provenance() {
 inline void write_events(const std::filesystem::path& path, const std::vector<Event>& events) {
   EventFileWriter writer(path, sample_provenance());
   for (const Event& event : events) {
-    writer.begin_event(event.id, event.truth, event.repeats);
+    writer.begin_event(event.id, event.truth, event.repeats, event.flasher);
     writer.append(event.hits);
   }
   writer.close();
 }
 
 inline bool same_float(float a, float b) {
+  return a == b || (std::isnan(a) && std::isnan(b));
+}
+
+inline bool same_number(double a, double b) {
   return a == b || (std::isnan(a) && std::isnan(b));
 }
 
@@ -108,6 +117,22 @@ inline void expect_same(const std::vector<Particle>& got, const std::vector<Part
     EXPECT_EQ(got[i].energy, expected[i].energy);
     EXPECT_EQ(got[i].time, expected[i].time);
   }
+}
+
+// Angles within the rounding of a conversion to degrees, or of the digits of text.
+inline void expect_same(const FlasherRun& got, const FlasherRun& expected) {
+  constexpr double rounding = 1e-11;
+  EXPECT_EQ(got.module, expected.module);
+  EXPECT_EQ(got.leds, expected.leds);
+  if (std::isnan(expected.orientation))
+    EXPECT_TRUE(std::isnan(got.orientation));
+  else
+    EXPECT_NEAR(got.orientation, expected.orientation, rounding);
+  EXPECT_EQ(got.wavelength, expected.wavelength);
+  EXPECT_NEAR(got.beam_width, expected.beam_width, rounding);
+  EXPECT_EQ(got.pulse_width, expected.pulse_width);
+  EXPECT_TRUE(same_number(got.photons, expected.photons)) << got.photons << " " << expected.photons;
+  EXPECT_EQ(got.oversize, expected.oversize);
 }
 
 }  // namespace floe::test

@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "data/base/constants.h"
+#include "data/base/error.h"
 #include "propagation/sources/cascade.h"
 #include "propagation/sources/flasher.h"
 
@@ -126,6 +128,77 @@ TEST_F(FlasherEmission, IsTheSameAloneWithEveryOption) {
           const int draws = 1 + (isotropic ? 2 : (azimuth ? 0 : 1) + (width > 0 ? 2 : 0));
           expect_the_same_alone(FlasherSource(detector_, {1, 1}, settings, led_line(405)), draws, 3);
         }
+}
+
+// A number more for the LED where there are several, and one for the place in the pulse where there is one.
+TEST_F(FlasherEmission, IsTheSameAloneWithPatternsAndPulses) {
+  for (const bool ring : {false, true})
+    for (const int leds : {1, 6})
+      for (const double pulse : {0.0, 70.0})
+        for (const double width : {0.0, 9.7 * degree}) {
+          FlasherSettings settings;
+          settings.photons = 1000;
+          if (!ring) settings.azimuth = 0.5;
+          settings.leds = leds;
+          settings.pulse_width = pulse;
+          settings.beam_width = width;
+          const int draws = 1 + (ring || leds > 1 ? 1 : 0) + (width > 0 ? 2 : 0) + (pulse > 0 ? 1 : 0);
+          expect_the_same_alone(FlasherSource(detector_, {1, 1}, settings, led_line(405)), draws, 3);
+        }
+}
+
+// Each photon of a pulse is the one it would be without, only later.
+TEST_F(FlasherEmission, OfAPulseIsOnlyDelayed) {
+  FlasherSettings settings;
+  settings.photons = 1000;
+  const FlasherSource flash(detector_, {1, 1}, settings, led_line(405));
+  settings.pulse_width = 70;
+  const FlasherSource pulse(detector_, {1, 1}, settings, led_line(405));
+  for (int i = 0; i < 1000; ++i) {
+    const EmittedPhoton early = emit_alone(flash, stream_of(4, i)), late = emit_alone(pulse, stream_of(4, i));
+    ASSERT_EQ(late.position, early.position);
+    ASSERT_EQ(late.direction, early.direction);
+    ASSERT_EQ(late.wavelength, early.wavelength);
+    ASSERT_GE(late.time, early.time);
+    ASSERT_LE(late.time, early.time + 70.001F);
+  }
+}
+
+TEST_F(FlasherEmission, RefusesPatternsAndPulsesThatMakeNoSense) {
+  FlasherSettings settings;
+  settings.leds = 0;
+  EXPECT_THROW(FlasherSource(detector_, {1, 1}, settings, led_line(405)), UsageError);
+  settings.leds = 6;
+  for (const double width : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    settings.pulse_width = width;
+    EXPECT_THROW(FlasherSource(detector_, {1, 1}, settings, led_line(405)), UsageError) << width;
+  }
+}
+
+TEST(FlasherSettings, AreThoseOfTheRun) {
+  FlasherRun run;
+  run.module = {1, 1};
+  EXPECT_THROW(flasher_settings(run), UsageError);  // how bright?
+  run.photons = 1e9;
+  run.pulse_width = 70;
+  run.beam_width = 5 * degree;
+  FlasherSettings settings = flasher_settings(run);
+  EXPECT_EQ(settings.photons, 1e9);
+  EXPECT_EQ(settings.pulse_width, 70);
+  EXPECT_EQ(settings.beam_width, 5 * degree);
+  EXPECT_EQ(settings.elevation, -0.2 * degree);
+  EXPECT_FALSE(settings.azimuth);
+  run.leds = {LedPattern::Kind::single, 3};
+  EXPECT_THROW(flasher_settings(run), UsageError);  // where is it?
+  run.orientation = 10 * degree;
+  settings = flasher_settings(run);
+  EXPECT_NEAR(settings.azimuth.value(), 130 * degree, 1e-12);
+  EXPECT_EQ(settings.elevation, 48.1 * degree);
+  EXPECT_EQ(settings.leds, 1);
+  run.leds = {LedPattern::Kind::horizontal, 0};
+  settings = flasher_settings(run);
+  EXPECT_NEAR(settings.azimuth.value(), 10 * degree, 1e-12);
+  EXPECT_EQ(settings.leds, 6);
 }
 
 TEST_F(FlasherEmission, StartsOnTheModulesSurface) {
