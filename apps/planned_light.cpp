@@ -171,14 +171,14 @@ Json cascade_json(const Cascade& cascade) {
 
 }  // namespace
 
-Json to_json(const LightRequest& request) {
+Json to_json(const SourceRequest& request) {
   if (request.flasher) return {{"flasher", flasher_json(*request.flasher)}};
   if (request.flashers) return {{"flashers", runs_json(*request.flashers)}};
   if (request.cascade) return {{"cascade", cascade_json(*request.cascade)}};
   return {{"f2k", request.f2k.value()}};
 }
 
-std::vector<PlannedEvent> plan_light(const LightRequest& request, const Model& model, std::uint64_t seed) {
+std::vector<PlannedEvent> plan_light(const SourceRequest& request, const Model& model, std::uint64_t seed) {
   if (request.f2k) return plan_f2k(*request.f2k, model, seed);
   if (request.flashers) return plan_runs(*request.flashers, model);
   std::vector<PlannedEvent> planned;

@@ -26,13 +26,13 @@ struct FlasherRequest {
 };
 
 // Exactly one of these is set.
-struct LightRequest {
+struct SourceRequest {
   std::optional<FlasherRequest> flasher;
   std::optional<std::vector<RunToSimulate>> flashers;
   std::optional<Cascade> cascade;
   std::optional<std::string> f2k;  // a file
 };
-Json to_json(const LightRequest& request);
+Json to_json(const SourceRequest& request);
 
 struct PlannedSource {
   std::unique_ptr<Source> source;
@@ -49,6 +49,6 @@ struct PlannedEvent {
 
 // The events of the request, in order. `seed` draws how bright hadronic cascades are. Throws InputError:
 // unknown module, malformed f2k, a particle that cannot be simulated.
-std::vector<PlannedEvent> plan_light(const LightRequest& request, const Model& model, std::uint64_t seed);
+std::vector<PlannedEvent> plan_light(const SourceRequest& request, const Model& model, std::uint64_t seed);
 
 }  // namespace floe

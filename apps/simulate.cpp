@@ -102,11 +102,11 @@ double parse_stretch(const std::string& text) {
   return text.empty() ? usual : parse_option_number("--weighted", text, {1, 100, true});
 }
 
-LightRequest light_request(const SimulateOptions& options) {
+SourceRequest light_request(const SimulateOptions& options) {
   const int given = !options.flasher_text.empty() + !options.flashers.empty() +
                     !options.cascade_text.empty() + !options.f2k.empty();
   if (given != 1) throw UsageError("give exactly one of --flasher, --flashers, --cascade and --f2k");
-  LightRequest light;
+  SourceRequest light;
   if (!options.f2k.empty()) light.f2k = options.f2k;
   if (!options.flashers.empty()) {
     light.flashers = read_flasher_runs(options.flashers);
@@ -121,7 +121,7 @@ LightRequest light_request(const SimulateOptions& options) {
   return light;
 }
 
-Provenance provenance_of(const SimulateOptions& options, const LightRequest& light, const Model& model,
+Provenance provenance_of(const SimulateOptions& options, const SourceRequest& light, const Model& model,
                          const std::string& command_line) {
   Json configuration = {{"command", "simulate"},
                         {"model", to_json(options.model)},
@@ -284,7 +284,7 @@ void print_results(const std::vector<EventResult>& results, const SimulateOption
 }
 
 void run_simulate(const SimulateOptions& options, const std::string& command_line) {
-  const LightRequest light = light_request(options);
+  const SourceRequest light = light_request(options);
   const std::string file = require_event_file_name(options.file);
   PlannedOutput json(options.output.json);
   const Model model = load_model(options.model);

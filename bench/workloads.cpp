@@ -16,8 +16,8 @@ namespace {
 const char* const flasher = "flasher";
 const char* const cascade = "cascade";
 
-LightRequest light_of(const Workload& workload, double brightness) {
-  LightRequest light;
+SourceRequest light_of(const Workload& workload, double brightness) {
+  SourceRequest light;
   if (workload.name == flasher) {
     light.flasher = FlasherRequest{};
     light.flasher->module = {63, 20};
