@@ -96,9 +96,9 @@ void judge(const Search::End& end, const EventData& data, const TrackTest& track
 }
 
 // What only some users ask for.
-void look_around(const Search& search, const FitOptions& options, CascadeFit& fit) {
+void look_around(const Search::End& end, const FitOptions& options, CascadeFit& fit) {
   if (options.sky_map_pixels == 0 && !options.profile) return;
-  const std::optional<ScoreLikelihood> likelihood = search.likelihood();
+  const std::optional<ScoreLikelihood> likelihood = end.likelihood();
   if (!likelihood) return;
   if (options.sky_map_pixels > 0)
     fit.sky_map = make_sky_map(*likelihood, options.sky_map_pixels, options.threads);
@@ -118,7 +118,7 @@ void find_result(ExpectationModel& light, const EventData& data, const FitOption
   fit.covariance = jacobian * end.covariance * jacobian.transpose();
 
   judge(end, data, track, fit);
-  look_around(search, options, fit);
+  look_around(end, options, fit);
   if (!options.goodness) return;
   if (progress) progress(0.92, "measuring the fit");
   const double photons = search.photons_for(fit.cascade, options.oversize, {3, 4e6, 8e6});

@@ -196,6 +196,12 @@ Search::RoundEnd Search::sharpen(const RoundEnd& rough) {
   return end;
 }
 
+// Where two minima compete, a noisy fine round must not carry one of them over to the other.
+Search::RoundEnd Search::sharpen_within_minimum(const RoundEnd& rough) {
+  const RoundEnd sharp = sharpen(rough);
+  return same_minimum(sharp.light, rough.light) ? sharp : rough;
+}
+
 Search::End Search::from(const CascadeParameters& start) {
   const LightCentre light = light_centre(start, options_.kind);
   return finish(sharpen(settle(light, rough_stage(light), most_rough_rounds, true)));
@@ -247,23 +253,20 @@ Search::End Search::from_starts(std::span<const LightCentre> starts) {
 // Both to their ends, since what is left of the way counts more than the difference.
 Search::End Search::better_of(const RoundEnd& first, const RoundEnd& second) {
   End ends[2];
-  std::unique_ptr<Calibration> calibrations[2];
+  ends[0] = finish(sharpen_within_minimum(first));
+  ends[1] = finish(sharpen_within_minimum(second), &ends[0]);
+  if (same_minimum(ends[0].light, ends[1].light)) return ends[ends[0].unsolved && ends[1].converged ? 1 : 0];
+
+  const double photons =
+      photons_for(cascade_of(ends[0].light, options_.kind), options_.oversize, {20, 1e6, 2e7});
   Evaluation values[2];
-  const PhotonNeed need{20, 1e6, 2e7};
-  const double oversize = training_oversize(data_, first.light, options_.oversize);
-  const double photons = photons_for(cascade_of(first.light, options_.kind), oversize, need);
-  for (int i = 0; i < 2; ++i) {
-    ends[i] = finish(i == 0 ? first : second);
-    calibrations[i] = std::move(calibration_);
-    values[i] = measure(ends[i].light, oversize, photons);
-  }
+  for (int i = 0; i < 2; ++i) values[i] = measure(ends[i].light, options_.oversize, photons);
   ++contests_;
   const int best = values[0].neg_llh <= values[1].neg_llh ? 0 : 1;
   const Difference worse = difference(values[1 - best], values[best]);
-  if (worse.value < competing + competing_errors * worse.error && !same_minimum(ends[0].light, ends[1].light))
+  if (worse.value < competing + competing_errors * worse.error)
     result_.other_minimum =
         OtherMinimum{cascade_of(ends[1 - best].light, options_.kind), worse.value, worse.error};
-  calibration_ = std::move(calibrations[best]);
   return ends[best];
 }
 

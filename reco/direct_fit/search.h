@@ -29,6 +29,12 @@ class Search {
   // Where the search ends. Coarse rounds far apart and with wide modules, fine ones at the wanted oversize;
   // earlier simulations near by are used again. When a fine round has moved no more than its design is
   // wide, the calibrated score (reco/direct_fit/calibrated_score.h) makes the last step.
+  struct Calibration {
+    EventData data;
+    double position_error;
+    std::vector<ScoreFold> folds;  // two; they refer to `data` and to the search's simulations
+    ScoreSolution solution;
+  };
   struct End {
     LightCentre light;
     Matrix7 covariance;  // of the local numbers around `light`
@@ -37,9 +43,10 @@ class Search {
     bool unsolved = false;                                  // the calibrated score has no solution
     std::string trouble;                                    // in words, when it did not converge
     std::vector<std::vector<double>> edges;  // of time bins that follow the light there; see arrival_edges
+    std::shared_ptr<const Calibration> calibration;  // of the last step; empty when the score has no solution
+    // When the calibrated score has a solution: the likelihood around it. Search and end must outlive it.
+    std::optional<ScoreLikelihood> likelihood() const;
   };
-  // When the calibrated score has a solution: the likelihood around it. The search must outlive it.
-  std::optional<ScoreLikelihood> likelihood() const;
   End from_scratch(const PointSeed& point);
   End from(const CascadeParameters& start);
 
@@ -68,7 +75,9 @@ class Search {
   static bool has_settled(const RoundEnd& end, const Stage& stage);
   RoundEnd settle(LightCentre origin, Stage stage, int most, bool follow_light);
   RoundEnd sharpen(const RoundEnd& rough);
-  End finish(const RoundEnd& rough);
+  RoundEnd sharpen_within_minimum(const RoundEnd& rough);
+  // Calibrations until one moves no further. Gives up, unconverged, on the way into a minimum that is known.
+  End finish(const RoundEnd& rough, const End* known = nullptr);
   // Errors as far as they are known, how far apart and with how many photons to simulate in the next
   // calibration.
   struct CalibrationNeed {
@@ -105,14 +114,6 @@ class Search {
     Purpose purpose;
   };
   std::vector<std::unique_ptr<Simulation>> simulations_;
-  // The last calibration, kept for who wants to know more than its solution.
-  struct Calibration {
-    EventData data;
-    double position_error;
-    std::vector<ScoreFold> folds;  // two; they refer to `data`
-    ScoreSolution solution;
-  };
-  std::unique_ptr<Calibration> calibration_;
   std::uint64_t stream_ = 0, draws_ = 0, contests_ = 0;
 };
 

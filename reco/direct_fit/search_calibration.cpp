@@ -21,7 +21,7 @@ constexpr double surely_seen = 4;
 
 }  // namespace
 
-Search::End Search::finish(const RoundEnd& rough) {
+Search::End Search::finish(const RoundEnd& rough, const End* known) {
   End end;
   end.light = rough.light;
   const Vector7& errors = rough.errors;
@@ -34,12 +34,13 @@ Search::End Search::finish(const RoundEnd& rough) {
   std::optional<End> found;  // the last solution that stayed near its calibration
   for (int i = 0; i < most_calibrations && !end.converged && !end.unsolved; ++i) {
     calibrate(end, need);
+    if (known && !known->unsolved && same_minimum(end.light, known->light)) return end;
     if (end.pull < acceptable_pull) found = end;
   }
   if (!end.converged && found) end = *found;
   end.unsolved |= !end.converged && !found;
   if (end.unsolved) {
-    calibration_.reset();
+    end.calibration.reset();
     // Too little light for the score's seven sums: the emulator's own minimum and curvature are what is left.
     Stage wide = calibration_stages(data_, end.light, need.errors, need.reach, options_.oversize).wide;
     wide.photons = photons_for(cascade_of(end.light, options_.kind), wide.oversize, {300, 2e6, 2e7});
@@ -81,14 +82,15 @@ void Search::calibrate(End& end, CalibrationNeed& need) {
   std::vector<const LightSample*> all = fresh[0];
   all.insert(all.end(), fresh[1].begin(), fresh[1].end());
   end.edges = arrival_edges(data_, frame, all, options_.kind, surely_seen);
-  calibration_ = std::make_unique<Calibration>(Calibration{
+  const auto calibration = std::make_shared<Calibration>(Calibration{
       data_.with_edges(arrival_edges(data_, frame, all, options_.kind)), need.errors.position, {}, {}});
-  auto& folds = calibration_->folds;
+  end.calibration = calibration;
+  auto& folds = calibration->folds;
   for (int fold = 0; fold < 2; ++fold)
     folds.push_back(
-        {emulate(calibration_->data, end.light, wide, training[fold]), training[fold], fresh[fold]});
-  const ScoreSolution& solution = calibration_->solution =
-      solve_calibrated_score(calibration_->data, std::span<const ScoreFold, 2>(folds), need.errors.position);
+        {emulate(calibration->data, end.light, wide, training[fold]), training[fold], fresh[fold]});
+  const ScoreSolution& solution = calibration->solution =
+      solve_calibrated_score(calibration->data, std::span<const ScoreFold, 2>(folds), need.errors.position);
   if (!solution.converged && !solution.leaves) {
     end.unsolved = true;
     end.covariance.setConstant(std::numeric_limits<double>::infinity());
@@ -119,10 +121,10 @@ void Search::calibrate(End& end, CalibrationNeed& need) {
   if (!enough_light) need.training = std::min(most_training, 3 * need.training);
 }
 
-std::optional<ScoreLikelihood> Search::likelihood() const {
-  if (!calibration_ || !calibration_->solution.converged) return std::nullopt;
-  return score_likelihood(calibration_->data, std::span<const ScoreFold, 2>(calibration_->folds),
-                          calibration_->solution, calibration_->position_error);
+std::optional<ScoreLikelihood> Search::End::likelihood() const {
+  if (!calibration || !calibration->solution.converged) return std::nullopt;
+  return score_likelihood(calibration->data, std::span<const ScoreFold, 2>(calibration->folds),
+                          calibration->solution, calibration->position_error);
 }
 
 }  // namespace floe
