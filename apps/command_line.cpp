@@ -6,9 +6,9 @@
 #include <cctype>
 #include <cstdio>
 #include <cstring>
-#include <numeric>
 
 #include "data/base/error.h"
+#include "data/base/words.h"
 
 namespace floe {
 
@@ -22,22 +22,6 @@ std::string quoted(const std::string& word) {
   std::string result = "'";
   for (const char c : word) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return result + "'";
-}
-
-// Levenshtein's distance: insertions, deletions and replacements of single letters.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row.back();
 }
 
 std::vector<std::string> option_names(const CLI::App& app) {
@@ -74,19 +58,6 @@ std::string quoted_command_line(int argc, char** argv) {
   std::string line = "floe";
   for (int i = 1; i < argc; ++i) line.append(" ").append(quoted(argv[i]));
   return line;
-}
-
-std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates) {
-  std::string nearest;
-  std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
-  for (const std::string& candidate : candidates) {
-    const std::size_t distance = edit_distance(word, candidate);
-    if (distance < least) {
-      least = distance;
-      nearest = candidate;
-    }
-  }
-  return nearest;
 }
 
 int report_parse_error(const CLI::App& app, const CLI::ParseError& error) {

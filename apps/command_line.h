@@ -3,7 +3,6 @@
 
 #include <CLI/App.hpp>
 #include <string>
-#include <vector>
 
 namespace floe {
 
@@ -15,8 +14,5 @@ std::string quoted_command_line(int argc, char** argv);
 // Prints help or version when that was asked for, or says on stderr what is wrong with the command
 // line and what was perhaps meant; returns the exit code.
 int report_parse_error(const CLI::App& app, const CLI::ParseError& error);
-
-// The candidate that differs least from `word` when it is near enough to be a typing mistake, else "".
-std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates);
 
 }  // namespace floe

@@ -24,6 +24,21 @@ CLI::Option* add_without_option(CLI::App& app, std::vector<std::string>& without
       ->type_name("EFFECT[,EFFECT]");
 }
 
+CLI::Option* add_effect_settings(CLI::App& app, const std::string& name, const std::string& description,
+                                 std::vector<EffectSetting>& settings) {
+  const auto read = [name, &settings](const std::vector<std::string>& lists) {
+    for (const std::string& list : lists)
+      for (const std::string& text : split_list(list)) try {
+          settings.push_back(parse_effect_setting(text));
+        } catch (const UsageError& error) {
+          throw UsageError(name + ": " + error.what());
+        }
+  };
+  return app.add_option_function<std::vector<std::string>>(name, read, description)
+      ->type_name("EFFECT.PARAMETER=VALUE[,...]")
+      ->allow_extra_args(false);
+}
+
 void add_model_options(CLI::App& app, ModelRequest& request) {
   app.add_option("--ice", request.ice, "Ice-model directory, or south-pole (built in, idealised)")
       ->type_name("DIR|south-pole")
@@ -32,6 +47,8 @@ void add_model_options(CLI::App& app, ModelRequest& request) {
               [&request](std::int64_t version) { request.ice_version = static_cast<int>(version); });
   add_detector_option(app, request.detector);
   add_without_option(app, request.without);
+  add_effect_settings(app, "--with", "Change the model, after --without; floe effects lists what there is",
+                      request.with);
 }
 
 void add_output_options(CLI::App& app, OutputOptions& options) {
@@ -55,8 +72,10 @@ void add_simulation_options(CLI::App& app, SimulationSettings& settings) {
 }
 
 std::string model_label(const ModelRequest& request) {
-  if (request.without.empty()) return request.ice;
-  return fmt::format("{} without {}", request.ice, fmt::join(request.without, ", "));
+  std::string label = request.ice;
+  if (!request.without.empty()) label += fmt::format(" without {}", fmt::join(request.without, ", "));
+  if (!request.with.empty()) label += fmt::format(" with {}", fmt::join(texts_of(request.with), ", "));
+  return label;
 }
 
 }  // namespace floe

@@ -11,11 +11,14 @@
 
 namespace floe {
 
-// --ice, --ice-version, --detector, --without
+// --ice, --ice-version, --detector, --without, --with
 void add_model_options(CLI::App& app, ModelRequest& request);
 // The same without --ice and --ice-version.
 void add_detector_option(CLI::App& app, std::optional<std::string>& detector);
 CLI::Option* add_without_option(CLI::App& app, std::vector<std::string>& without);
+// An option such as --with, which may be repeated. What is not of the form is a UsageError that names it.
+CLI::Option* add_effect_settings(CLI::App& app, const std::string& name, const std::string& description,
+                                 std::vector<EffectSetting>& settings);
 
 struct OutputOptions {
   std::optional<std::string> json;  // --json FILE
@@ -31,7 +34,7 @@ struct SimulationSettings {
 void add_run_options(CLI::App& app, SimulationSettings& settings);         // --seed, --threads
 void add_simulation_options(CLI::App& app, SimulationSettings& settings);  // these and --oversize
 
-// "DIR" or "DIR without birefringence": how a model is called in printouts.
+// "DIR" or "DIR without tilt with birefringence.strength=2": how a model is called in printouts.
 std::string model_label(const ModelRequest& request);
 
 }  // namespace floe

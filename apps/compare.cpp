@@ -27,6 +27,7 @@ namespace {
 struct CompareOptions {
   std::vector<std::string> files, ice;
   std::vector<std::string> without;
+  std::vector<EffectSetting> with;
   std::optional<int> ice_version;
   std::optional<std::string> detector, picture;
   FitSettings fit;
@@ -43,15 +44,17 @@ std::array<ModelRequest, 2> model_requests(const CompareOptions& options) {
   if (options.ice.size() > 2)
     throw UsageError(fmt::format("--ice: found {} models; expected at most two", options.ice.size()));
   if (options.ice.size() == 2) {
-    if (!options.without.empty())
+    if (!options.without.empty() || !options.with.empty())
       throw UsageError(
-          "--without makes the second model from the first; expected one --ice with it, found two");
+          fmt::format("{} makes the second model from the first; expected one --ice with it, found two",
+                      options.without.empty() ? "--with" : "--without"));
     b.ice = options.ice.back();
-  } else if (options.without.empty()) {
+  } else if (options.without.empty() && options.with.empty()) {
     throw UsageError(
-        "a second model is missing; expected --ice A --ice B, or --without EFFECT to make B from A");
+        "a second model is missing; expected --ice A --ice B, or --without or --with to make B from A");
   } else {
     b.without = options.without;
+    b.with = options.with;
   }
   return {a, b};
 }
@@ -215,6 +218,8 @@ void add_compare(CLI::App& floe) {
   add_detector_option(app, options->detector);
   add_without_option(app, options->without)
       ->description("B is A without these effects; floe info --help lists them");
+  add_effect_settings(app, "--with", "B is A with this changed; floe effects lists what there is",
+                      options->with);
   app.add_option("-o,--picture", options->picture,
                  "Picture of the data and both fits: arrival times in the brightest modules; of several "
                  "events, FILE-1.svg, FILE-2.svg, ...")
@@ -226,6 +231,7 @@ void add_compare(CLI::App& floe) {
       "  floe compare event.h5 --without birefringence --picture compare.svg\n"
       "  floe compare event.hits --ice my-ice --ice south-pole --json compare.json\n"
       "  floe compare event.h5 imported.h5 --ice south-pole --without birefringence.deflection\n"
+      "  floe compare event.h5 --with absorption-scale.factor=1.1\n"
       "A positive B - A of -ln L means that A describes the event better.");
   app.callback([options] { run_compare(*options); });
 }

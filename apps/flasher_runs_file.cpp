@@ -9,9 +9,9 @@
 #include <string>
 #include <toml.hpp>
 
-#include "apps/command_line.h"
 #include "data/base/error.h"
 #include "data/base/text.h"
+#include "data/base/words.h"
 #include "data/event_rules.h"
 
 namespace floe {

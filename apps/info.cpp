@@ -181,7 +181,8 @@ void add_info(CLI::App& floe) {
       "Examples:\n"
       "  floe info\n"
       "  floe info --ice my-ice --wavelength 405 --step 10\n"
-      "  floe info --without birefringence --json info.json");
+      "  floe info --without birefringence --json info.json\n"
+      "  floe info --with birefringence.strength=0.5,tilt.slope=10");
   app.callback([options] { run_info(*options); });
 }
 

@@ -7,6 +7,7 @@ Json to_json(const ModelRequest& request) {
   json["ice_version"] = request.ice_version ? Json(*request.ice_version) : Json();
   json["detector"] = request.detector ? Json(*request.detector) : Json();
   json["without"] = request.without;
+  json["with"] = texts_of(request.with);
   return json;
 }
 

@@ -84,7 +84,7 @@ PlannedEvent plan_flasher(const FlasherRequest& request, const Model& model) {
   settings.isotropic = request.isotropic;
   PlannedEvent event{fmt::format("flasher-{}-{}", request.module.string, request.module.dom), {}, {}};
   event.sources.push_back({std::make_unique<FlasherSource>(
-                               *model.detector, request.module, settings,
+                               *model.detector, request.module, adjusted(settings, model.sources),
                                request.wavelength ? led_line(*request.wavelength) : reference_led_line()),
                            false});
   return event;
@@ -95,7 +95,7 @@ PlannedEvent plan_run(const RunToSimulate& planned, const std::string& id, const
   settings.photons *= planned.repeats * (planned.whole_line ? 1 : reference_led_share);
   PlannedEvent event{id, {}, {}, static_cast<double>(planned.repeats), planned.run};
   event.sources.push_back({std::make_unique<FlasherSource>(
-                               *model.detector, planned.run.module, settings,
+                               *model.detector, planned.run.module, adjusted(settings, model.sources),
                                planned.whole_line ? led_line(planned.run.wavelength) : reference_led_line()),
                            false});
   return event;

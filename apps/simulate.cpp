@@ -375,6 +375,7 @@ void add_simulate(CLI::App& floe, const std::string& command_line) {
       "  floe simulate --flashers runs.toml --oversize 16 -o runs.h5\n"
       "  floe simulate --ice my-ice --cascade 20,-40,-300,70,130,1000 --particle hadron --without tilt -o "
       "hadron.h5\n"
+      "  floe simulate --flasher 63,20 --photons 1e6 --with birefringence.strength=0.5 -o half.h5\n"
       "  floe simulate --flasher 63,20 --photons 1e6 --weighted=6 -o far.h5\n"
       "  floe simulate --f2k events.f2k --seed 2 --json summary.json -o events.h5");
   app.callback([options, command_line] { run_simulate(*options, command_line); });

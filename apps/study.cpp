@@ -24,6 +24,7 @@ struct StudyCommand {
   std::vector<std::string> groups{"1e4,40,10", "1e5,40,20", "1e6,10,40"};
   std::optional<std::string> fit_ice;
   std::vector<std::string> fit_without;
+  std::vector<EffectSetting> fit_with;
   double effort = 1;
   SimulationSettings run;
   std::optional<std::string> rows, picture;
@@ -39,6 +40,21 @@ StudyGroup group_of(const std::string& text) {
           parse_option_number("--group", parts[2], {1, 100})};
 }
 
+// The model that is fitted, too: what the data are made with, changed. A parameter that both set has the
+// fit's value.
+std::optional<ModelRequest> other_model(const StudyCommand& command) {
+  if (!command.fit_ice && command.fit_without.empty() && command.fit_with.empty()) return {};
+  ModelRequest other = command.model;
+  if (command.fit_ice) other.ice = *command.fit_ice, other.ice_version.reset();
+  other.without.insert(other.without.end(), command.fit_without.begin(), command.fit_without.end());
+  for (const EffectSetting& setting : command.fit_with)
+    std::erase_if(other.with, [&](const EffectSetting& of_data) {
+      return of_data.effect == setting.effect && of_data.parameter == setting.parameter;
+    });
+  other.with.insert(other.with.end(), command.fit_with.begin(), command.fit_with.end());
+  return other;
+}
+
 StudySettings settings_of(const StudyCommand& command) {
   StudySettings settings;
   for (const std::string& text : command.groups) settings.groups.push_back(group_of(text));
@@ -47,19 +63,16 @@ StudySettings settings_of(const StudyCommand& command) {
       if (settings.groups[i].energy == settings.groups[k].energy)
         throw UsageError(fmt::format("--group: {:g} GeV is given twice", settings.groups[i].energy));
   settings.truth = load_model(command.model);
-  if (command.fit_ice || !command.fit_without.empty()) {
-    ModelRequest other = command.model;
-    if (command.fit_ice) other.ice = *command.fit_ice, other.ice_version.reset();
-    other.without.insert(other.without.end(), command.fit_without.begin(), command.fit_without.end());
-    settings.other = load_model(other);
-  }
+  if (const auto other = other_model(command)) settings.other = load_model(*other);
   settings.seed = command.run.seed;
   settings.fit.model_error = 0;  // the simulated data have none
   settings.fit.effort = command.effort;
   return settings;
 }
 
-Json heading_of(const StudySettings& settings) {
+// All that rows depend on. (Hashes do not tell how modules accept light; what --with changes of that stands
+// beside them.)
+Json heading_of(const StudyCommand& command, const StudySettings& settings) {
   Json oversize = Json::object();
   for (const StudyGroup& group : settings.groups)
     oversize[fmt::format("{:g}", group.energy)] = group.oversize;
@@ -70,7 +83,9 @@ Json heading_of(const StudySettings& settings) {
           {"oversize", oversize},
           {"ice", settings.truth.ice->hash()},
           {"detector", settings.truth.detector->hash()},
-          {"fit_ice", settings.other ? Json(settings.other->ice->hash()) : Json()}};
+          {"fit_ice", settings.other ? Json(settings.other->ice->hash()) : Json()},
+          {"with", texts_of(command.model.with)},
+          {"fit_with", texts_of(command.fit_with)}};
 }
 
 struct Task {
@@ -170,7 +185,8 @@ void run_study(const StudyCommand& command) {
   PlannedOutput json(command.output.json), picture(command.picture);
   std::unique_ptr<RowJournal> journal;
   if (command.rows)
-    journal = std::make_unique<RowJournal>(*command.rows, heading_of(settings), RowJournal::Mismatch::error);
+    journal = std::make_unique<RowJournal>(*command.rows, heading_of(command, settings),
+                                           RowJournal::Mismatch::error);
   const std::vector<StudyRow> rows = run_events(command, settings, journal.get());
 
   Json tables = Json::array();
@@ -219,6 +235,8 @@ void add_study(CLI::App& floe) {
       ->type_name("EFFECT,...")
       ->delimiter(',')
       ->allow_extra_args(false);
+  add_effect_settings(app, "--fit-with", "Fit with the ice changed like this, too; floe effects",
+                      command->fit_with);
   add_number(app, "--effort", "X", {0, 1000, true}, "Multiplies the number of simulated photons",
              command->effort);
   add_run_options(app, command->run);

@@ -15,8 +15,11 @@ std::string TextTable::str() const {
   std::string text;
   for (const auto& row : rows_) {
     std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i)
-      line += i == 0 ? fmt::format("{:<{}}", row[i], widths[i]) : fmt::format("  {:>{}}", row[i], widths[i]);
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const bool left = i == 0 || i >= first_text_;
+      line += i == 0 ? "" : "  ";
+      line += left ? fmt::format("{:<{}}", row[i], widths[i]) : fmt::format("{:>{}}", row[i], widths[i]);
+    }
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + '\n';
   }

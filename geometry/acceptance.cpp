@@ -49,6 +49,12 @@ AngularAcceptance AngularAcceptance::polynomial(double maximum, std::vector<doub
   return acceptance;
 }
 
+AngularAcceptance AngularAcceptance::polynomial(std::vector<double> coefficients) {
+  const double largest = largest_value(coefficients);
+  if (!(largest > 0)) throw InputError("angular acceptance: found a curve that is nowhere above 0");
+  return polynomial(largest, std::move(coefficients));
+}
+
 AngularAcceptance AngularAcceptance::surface(double cut) {
   if (!(cut >= -1 && cut < 1))
     throw InputError(

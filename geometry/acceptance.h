@@ -20,6 +20,8 @@ class AngularAcceptance {
   // straight up meets the photomultiplier head-on). `maximum` > 0 is the largest value it is used
   // with; negative values count as 0. Throws InputError when it is not in [0, maximum] anywhere.
   static AngularAcceptance polynomial(double maximum, std::vector<double> coefficients);
+  // With the largest value that it has for its maximum.
+  static AngularAcceptance polynomial(std::vector<double> coefficients);
   // Accepts only a cap around the lower pole: -(impact point . up axis) > cut on the unit sphere.
   static AngularAcceptance surface(double cut);
 

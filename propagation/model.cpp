@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "data/base/error.h"
-#include "propagation/effects.h"
+#include "propagation/effects/switches.h"
 
 namespace floe {
 
@@ -89,21 +89,38 @@ Detector without_cables(const Detector& detector) {
   return {detector.name(), std::move(modules), detector.strings()};
 }
 
+void switch_off(ModelParts& parts, const std::string& effect) {
+  switch_off(parts.ice, effect);
+  if (effect == "cable-shadow") parts.detector = without_cables(parts.detector);
+}
+
+ModelParts load_parts(const ModelRequest& request) {
+  ModelParts parts{load_tables(request), load_detector(request), load_acceptance(request)};
+  expect_high_qe_ratio(parts.detector, parts.acceptance);
+  parts.acceptance.overall_efficiency = parts.ice.configuration.module_efficiency;
+  return parts;
+}
+
 }  // namespace
 
+Model freeze(ModelParts parts) {
+  auto ice = std::make_shared<const IceModel>(std::move(parts.ice), parts.detector);
+  return {std::make_shared<const Detector>(std::move(parts.detector)), std::move(ice),
+          std::move(parts.acceptance), parts.sources};
+}
+
+ModelParts parts_of(const Model& model) {
+  return {model.ice->tables(), *model.detector, model.acceptance, model.sources};
+}
+
 Model load_model(const ModelRequest& request) {
-  for (const auto& effect : request.without) expect_known_effect(effect);  // before any file is read
-  IceTables tables = load_tables(request);
-  Detector detector = load_detector(request);
-  ModuleAcceptance acceptance = load_acceptance(request);
-  expect_high_qe_ratio(detector, acceptance);
-  acceptance.overall_efficiency = tables.configuration.module_efficiency;
-  for (const auto& effect : request.without) {
-    switch_off(tables, effect);
-    if (effect == "cable-shadow") detector = without_cables(detector);
-  }
-  auto ice = std::make_shared<const IceModel>(std::move(tables), detector);
-  return {std::make_shared<const Detector>(std::move(detector)), std::move(ice), std::move(acceptance)};
+  // Names first, before any file is read.
+  for (const auto& effect : request.without) expect_known_effect(effect);
+  for (const auto& setting : request.with) find_effect(setting.effect);
+  ModelParts parts = load_parts(request);
+  for (const auto& effect : request.without) switch_off(parts, effect);
+  apply_effects(request.with, parts);
+  return freeze(std::move(parts));
 }
 
 }  // namespace floe

@@ -1,4 +1,5 @@
-// Everything a simulation is made of besides the source: ice, modules, how modules accept light.
+// Everything a simulation is made of besides the source: ice, modules, how modules accept light, and how
+// sources differ from what is said of them.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +11,9 @@
 
 #include "geometry/acceptance.h"
 #include "geometry/detector.h"
+#include "propagation/effects/effect.h"
 #include "propagation/ice/ice_model.h"
+#include "propagation/model_parts.h"
 
 namespace floe {
 
@@ -18,7 +21,13 @@ struct Model {
   std::shared_ptr<const Detector> detector;
   std::shared_ptr<const IceModel> ice;
   ModuleAcceptance acceptance;
+  SourceSettings sources = {};
 };
+
+// Checks the parts and works out what follows. Throws InputError (see IceModel).
+Model freeze(ModelParts parts);
+// What freeze() makes the same model of.
+ModelParts parts_of(const Model& model);
 
 // How a user names a model on the command line.
 struct ModelRequest {
@@ -26,13 +35,15 @@ struct ModelRequest {
   std::optional<int> ice_version;       // overrides the directory's `version`
   std::optional<std::string> detector;  // a geo-f2k file, a directory, or "ic86"; default: of the ice
   std::vector<std::string> without;     // effects to switch off, see switch_off()
+  std::vector<EffectSetting> with;      // effects to apply after that, see propagation/effects/effect.h
 };
 
 // Reads and validates. Built-in ice takes the built-in detector and acceptance unless named otherwise.
 // as.dat, wv.dat and wv.rde are those of the ice directory, else of the detector directory; without any of
 // them, the built-in acceptance serves when ice or detector are built in. The overall efficiency is the
 // ice's. Throws InputError (missing or malformed files; modules of high quantum efficiency without wv.rde;
-// neither acceptance), UsageError (unknown effect or version).
+// neither acceptance; what the effects leave is not physical), UsageError (unknown
+// effect, parameter or version, a parameter's value out of its range).
 Model load_model(const ModelRequest& request);
 
 // Names that switch_off() takes, in the order in which help lists them: birefringence (its scattering

@@ -9,6 +9,7 @@
 #include "data/base/constants.h"
 #include "data/base/error.h"
 #include "data/base/vec3.h"
+#include "propagation/ice/dust.h"
 #include "propagation/ice/ice_hash.h"
 #include "propagation/ice/ice_validation.h"
 
@@ -16,24 +17,14 @@ namespace floe {
 
 namespace {
 
-constexpr double reference_wavelength = 400;               // of the tables [nm]
 constexpr double shortest_seen = 260, longest_seen = 680;  // by modules, wv.dat of published models [nm]
 constexpr double lone_layer_step = 100;  // a single layer fills all space; any step will do [m]
-
-double thermal_factor(const WavelengthDependence& w, double wavelength) {
-  return w.A * std::exp(-w.B / wavelength);
-}
 
 // arXiv:1301.5361: above the depth where bubbles have turned into clathrate they scatter light of every
 // colour alike.
 double bubble_scattering(const std::optional<Bubbles>& bubbles, double depth) {
   if (!bubbles || depth >= bubbles->d1 || depth >= bubbles->d2) return 0;
   return bubbles->b * (1 - depth / bubbles->d1) * (1 - depth / bubbles->d2);
-}
-
-double dust_absorption(const WavelengthDependence& w, double column) {
-  if (!w.D && !w.E) return column;
-  return (w.D.value_or(0) * column + w.E.value_or(0)) * std::pow(reference_wavelength, -w.kappa);
 }
 
 IceLayer make_layer(const IceTables& tables, const IceLayerRow& row, double birefringent_scattering) {
@@ -45,12 +36,8 @@ IceLayer make_layer(const IceTables& tables, const IceLayerRow& row, double bire
   if (tables.version == 0) layer.scattering_constant -= birefringent_share;
   if (tables.version == 20) layer.scattering_power -= birefringent_share;
 
-  layer.absorption_dust = dust_absorption(tables.wavelength, row.dust_absorption);
+  layer.absorption_dust = dust_law(tables, row).absorption(row.dust_absorption);
   layer.absorption_thermal = 1 + 0.01 * row.temperature_difference;
-  // Version 20 tabulates the whole absorption at 400 nm: take the thermal part out of its dust.
-  if (tables.version == 20)
-    layer.absorption_dust -=
-        layer.absorption_thermal * thermal_factor(tables.wavelength, reference_wavelength);
 
   layer.k1 = row.k1.value_or(c.k1);
   layer.k2 = row.k2.value_or(c.k2);
@@ -74,6 +61,11 @@ std::array<double, 3> normalised_anisotropy(const IceConfiguration::AbsorptionAn
 
 }  // namespace
 
+double layer_step(const std::vector<IceLayerRow>& layers) {
+  if (layers.size() < 2) return lone_layer_step;
+  return (layers.back().depth - layers.front().depth) / static_cast<double>(layers.size() - 1);
+}
+
 IceModel::IceModel(IceTables tables, const Detector& detector) : tables_(std::move(tables)) {
   validate(tables_);
   const auto& rows = tables_.layers;
@@ -81,8 +73,7 @@ IceModel::IceModel(IceTables tables, const Detector& detector) : tables_(std::mo
   if (c.birefringence) birefringent_scattering_ = mean_birefringent_scattering(*c.birefringence);
   for (auto row = rows.rbegin(); row != rows.rend(); ++row)
     layers_.push_back(make_layer(tables_, *row, birefringent_scattering_));
-  step_ = rows.size() > 1 ? (rows.back().depth - rows.front().depth) / static_cast<double>(rows.size() - 1)
-                          : lone_layer_step;
+  step_ = floe::layer_step(rows);
   z_bottom_ = origin_depth - rows.back().depth - step_ / 2;
   if (c.absorption_anisotropy) absorption_K_ = normalised_anisotropy(*c.absorption_anisotropy);
   expect_light_transport();

@@ -28,6 +28,9 @@ struct IceLayer {
   double deflection_strength = 0;  // a b: the mean deflection grows with a b L
 };
 
+// Thickness of uniform layers [m]. A single one fills all space; 100 m stand for it.
+double layer_step(const std::vector<IceLayerRow>& layers);
+
 // Tables that were checked, and the physics that follows from them; never changes.
 class IceModel {
  public:

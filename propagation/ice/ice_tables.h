@@ -105,6 +105,9 @@ IceTables read_ice_tables(const std::filesystem::path& directory, std::optional<
 // UsageError when a part of birefringence is switched off alone.
 void write_ice_tables(const IceTables& tables, const std::filesystem::path& directory);
 
+// The 12 numbers of SpiceBFR v2, all parts on (arXiv:2107.08692).
+BirefringenceNumbers published_birefringence();
+
 // The built-in ice "south-pole", idealised: dust layers at their published depths, published numbers
 // for anisotropy and birefringence, no tilt. Sources stand beside the numbers.
 IceTables south_pole_ice();

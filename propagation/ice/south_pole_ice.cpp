@@ -64,14 +64,6 @@ WavelengthDependence wavelength_dependence() {  // arXiv:1301.5361, rounded
   return w;
 }
 
-BirefringenceNumbers birefringence_numbers() {  // arXiv:2107.08692
-  BirefringenceNumbers numbers;
-  numbers.sigma_x = {0.076795, 544284.545, 2.229494, 0.002624};
-  numbers.sigma_y = {0.077381, 1547618.884, 2.449589, 0.002505};
-  numbers.mean_x = {0.000995, 0.248264, 2.354436, 1.680717};
-  return numbers;
-}
-
 IceLayerRow layer_at_depth(double depth, const WavelengthDependence& w) {
   const auto [i, share] = place_in<ProfilePoint>(profile, depth);
   const double scattering_length =
@@ -93,6 +85,14 @@ IceLayerRow layer_at_depth(double depth, const WavelengthDependence& w) {
 
 }  // namespace
 
+BirefringenceNumbers published_birefringence() {
+  BirefringenceNumbers numbers;
+  numbers.sigma_x = {0.076795, 544284.545, 2.229494, 0.002624};
+  numbers.sigma_y = {0.077381, 1547618.884, 2.449589, 0.002505};
+  numbers.mean_x = {0.000995, 0.248264, 2.354436, 1.680717};
+  return numbers;
+}
+
 IceTables south_pole_ice() {
   IceTables tables;
   tables.name = "south-pole";
@@ -104,7 +104,7 @@ IceTables south_pole_ice() {
   c.flow_azimuth_deg = 130;                               // arXiv:1309.7010
   c.absorption_anisotropy = {0.6, -0.3, -0.3};            // arXiv:2107.08692
   c.old_absorption_scaling = 0;
-  c.birefringence = birefringence_numbers();
+  c.birefringence = published_birefringence();
   return tables;
 }
 

@@ -15,8 +15,6 @@ namespace floe {
 
 namespace {
 
-constexpr double lines_direction = 225 * degree;  // along which 1D tilt varies
-
 Eigen::Vector2d direction_of(double azimuth) {
   return {std::cos(azimuth), std::sin(azimuth)};
 }
@@ -30,7 +28,7 @@ double lines_origin(const IceTables& tables, const Detector& detector) {
   int modules = 0;
   for (const Module& module : detector.modules())
     if (module.id.string == string) {
-      sum += module.position.head<2>().dot(direction_of(lines_direction));
+      sum += module.position.head<2>().dot(direction_of(tilt_lines_direction));
       ++modules;
     }
   if (modules == 0)
@@ -105,7 +103,7 @@ LayerTilt::LayerTilt(const IceTables& tables, const Detector& detector) {
     kind_ = Kind::lines;
     set_depths(tables.tilt_lines->depths);
     set_line_cells(*tables.tilt_lines);
-    const Eigen::Vector2d direction = direction_of(lines_direction);
+    const Eigen::Vector2d direction = direction_of(tilt_lines_direction);
     direction_x_ = static_cast<float>(direction.x());
     direction_y_ = static_cast<float>(direction.y());
     origin_ = static_cast<float>(lines_origin(tables, detector));

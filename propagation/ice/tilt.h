@@ -10,6 +10,8 @@
 
 namespace floe {
 
+inline constexpr double tilt_lines_direction = 225 * degree;  // azimuth along which 1D tilt varies
+
 // The layer shift [m] as a function of place [m]; none, 1D along 225 deg, or 2D on an oblique grid
 // (arXiv:2307.13951), which takes precedence. Depth and, in 1D, distance are extrapolated linearly; in 2D a
 // place outside the grid has the value of the nearest place on its border.

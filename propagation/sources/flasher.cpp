@@ -56,6 +56,13 @@ FlasherSettings flasher_settings(const FlasherRun& run) {
   return settings;
 }
 
+FlasherSettings adjusted(FlasherSettings nominal, const SourceSettings& sources) {
+  nominal.photons *= sources.brightness_factor;
+  nominal.beam_width *= sources.width_factor;
+  nominal.time += sources.time_offset;
+  return nominal;
+}
+
 FlasherSource::FlasherSource(const Detector& detector, ModuleId module, const FlasherSettings& settings,
                              const WavelengthSpectrum& spectrum)
     : settings_(settings),

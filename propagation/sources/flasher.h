@@ -8,6 +8,7 @@
 #include "geometry/detector.h"
 #include "propagation/sources/quantile_table.h"
 #include "propagation/sources/source.h"
+#include "propagation/sources/source_settings.h"
 
 namespace floe {
 
@@ -34,6 +35,9 @@ struct FlasherSettings {
 // The light of one flash of a run. Throws UsageError when its number of photons is unknown, or the module's
 // orientation, where the LEDs' azimuths depend on it.
 FlasherSettings flasher_settings(const FlasherRun& run);
+
+// The light of a flasher of which these settings are nominal.
+FlasherSettings adjusted(FlasherSettings nominal, const SourceSettings& sources);
 
 // Photons start on the surface of the emitting module, module_radius from its centre in the photon's
 // direction, with the time that takes in vacuum. The beam is von Mises-Fisher of concentration

@@ -8,6 +8,7 @@
 #include "apps/progress_bar.h"
 #include "apps/text_table.h"
 #include "data/base/error.h"
+#include "data/base/words.h"
 #include "tests/unit/data/temporary_folder.h"
 
 namespace floe::test {

@@ -36,7 +36,7 @@ std::vector<std::string> examples_of(const std::string& command) {
 TEST(Help, ListsTheCommandsThatUsersRelyOn) {
   const auto names = commands();
   for (const char* name :
-       {"info", "simulate", "reconstruct", "compare", "import", "export", "merge", "validate"})
+       {"info", "effects", "simulate", "reconstruct", "compare", "import", "export", "merge", "validate"})
     EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
 }
 
@@ -71,7 +71,7 @@ TEST(Help, ExamplesRunAsPrinted) {
   write_bytes(
       folder.path() / "runs.toml",
       "[defaults]\nphotons = 1e7\n[[run]]\nmodule = [63, 20]\n[[run]]\nmodule = [63, 20]\nleds = 3\n");
-  for (const std::string command : {"info", "simulate", "export", "import"})
+  for (const std::string command : {"info", "effects", "simulate", "export", "import"})
     for (const std::string& example : examples_of(command)) {
       const Outcome outcome = run_floe(folder.path(), example);
       EXPECT_EQ(outcome.code, 0) << "floe " << example << "\n" << outcome.err;

@@ -1,4 +1,4 @@
-// Names of effects on the command line.
+// Names of the effects that can be switched off (switchable_effects() in propagation/model.h).
 #pragma once
 
 #include <string_view>

@@ -1,19 +1,19 @@
-#include "propagation/effects.h"
+#include "propagation/effects/switches.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "data/base/error.h"
+#include "data/base/words.h"
 #include "propagation/model.h"
 
 namespace floe {
 
 namespace {
 
-struct Effect {
+struct Switch {
   std::string_view name;
   void (*switch_off)(IceTables&);
 };
@@ -38,7 +38,7 @@ void switch_off_tilt(IceTables& tables) {
   tables.tilt_map.reset();
 }
 
-constexpr Effect effects[] = {
+constexpr Switch switches[] = {
     {"birefringence", [](IceTables& tables) { tables.configuration.birefringence.reset(); }},
     {"birefringence.diffusion", switch_off_part<&BirefringenceNumbers::diffusion>},
     {"birefringence.deflection", switch_off_part<&BirefringenceNumbers::deflection>},
@@ -51,29 +51,11 @@ constexpr Effect effects[] = {
     {"bubbles", [](IceTables& tables) { tables.bubbles.reset(); }},
 };
 
-// Levenshtein's distance: how many letters to insert, delete or replace.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] != b[j]);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
-    }
-  }
-  return row.back();
-}
-
-const Effect& find_effect(std::string_view name) {
-  const auto found = std::find_if(std::begin(effects), std::end(effects),
-                                  [&](const Effect& effect) { return effect.name == name; });
-  if (found != std::end(effects)) return *found;
-  auto known = switchable_effects();
-  std::stable_sort(known.begin(), known.end(), [&](const auto& a, const auto& b) {
-    return edit_distance(name, a) < edit_distance(name, b);
-  });
+const Switch& find_switch(std::string_view name) {
+  const auto found = std::find_if(std::begin(switches), std::end(switches),
+                                  [&](const Switch& effect) { return effect.name == name; });
+  if (found != std::end(switches)) return *found;
+  const auto known = by_likeness(name, switchable_effects());
   throw UsageError(fmt::format("no effect '{}' can be switched off; did you mean '{}'? Known: {}", name,
                                known.front(), fmt::join(known, ", ")));
 }
@@ -82,16 +64,16 @@ const Effect& find_effect(std::string_view name) {
 
 std::vector<std::string> switchable_effects() {
   std::vector<std::string> names;
-  for (const Effect& effect : effects) names.emplace_back(effect.name);
+  for (const Switch& effect : switches) names.emplace_back(effect.name);
   return names;
 }
 
 void expect_known_effect(std::string_view effect) {
-  find_effect(effect);
+  find_switch(effect);
 }
 
 void switch_off(IceTables& tables, std::string_view effect) {
-  find_effect(effect).switch_off(tables);
+  find_switch(effect).switch_off(tables);
 }
 
 }  // namespace floe
