@@ -13,6 +13,7 @@
 #include "propagation/engine/directions.h"
 #include "propagation/engine/hole_ice.h"
 #include "propagation/engine/meeting_modules.h"
+#include "propagation/engine/path_scores.h"
 #include "propagation/engine/photon_acceptance.h"
 #include "propagation/engine/scattering.h"
 #include "propagation/engine/walker.h"
@@ -27,8 +28,9 @@ struct Photon {
   std::uint64_t id;
   Vec3 position, direction;
   double time, wavelength;
-  double absorption_budget;                   // optical depth that it may spend in all
-  double absorption_depth, scattering_depth;  // left until it is absorbed, until it scatters
+  double absorption_budget;                               // optical depth that it may spend in all
+  double absorption_depth, scattering_depth;              // left until it is absorbed, until it scatters
+  double dust_factor, thermal_factor, scattering_factor;  // of its wavelength, see IceLayer
   bool scattered = false;
 };
 
@@ -44,15 +46,34 @@ struct Piece {
   double diffusion = 0, deflection = 0;       // birefringence strengths integrated along it [m]
 };
 
-// What one call of walk() is about.
+// A path as far as it has been walked, and where its hits go.
+struct Trace {
+  struct Flight {
+    int layer;
+    double length;
+  };
+  PathScores scores;
+  const PathSink& sink;
+  std::vector<Flight> last_piece = {};  // its layers
+};
+
+// What one call of walk() or trace() is about.
 struct Task {
   const PhotonBatch& batch;
   std::optional<std::size_t> emitter;
   std::vector<SimulatedHit>& hits;
+  Trace* trace = nullptr;
   WalkerCounts counts = {};
 };
 
-class PlainWalker : public PhotonWalker {
+void clear(PathScores& scores, std::size_t layers) {
+  scores.layers.assign(layers, {});
+  scores.absorption_anisotropy = {};
+  scores.lowest = static_cast<int>(layers);
+  scores.highest = -1;
+}
+
+class PlainWalker : public PhotonWalker, public PathTracer {
  public:
   PlainWalker(const Model& model, double oversize)
       : model_(model),
@@ -62,6 +83,7 @@ class PlainWalker : public PhotonWalker {
         clearance_(*model.detector, oversize),
         columns_(model),
         acceptance_(*model.detector, model.acceptance),
+        old_scaling_(ice_.old_absorption_scaling()),
         ice_scattering_{ice_.simplified_liu_fraction(), ice_.mean_cosine()},
         column_scattering_{columns_.simplified_liu_fraction(), columns_.mean_cosine()},
         flow_(std::cos(ice_.flow_azimuth()), std::sin(ice_.flow_azimuth())) {}
@@ -79,10 +101,33 @@ class PlainWalker : public PhotonWalker {
     return task.counts;
   }
 
+  void trace(const Source& source, std::uint64_t seed, std::uint64_t stream,
+             std::span<const std::uint64_t> photons, const PathSink& sink) const override {
+    const PhotonBatch batch{seed, stream, 0, 0};
+    std::vector<SimulatedHit> hits;
+    Trace trace{{}, sink};
+    Task task{batch, source.emitting_module(), hits, &trace};
+    for (const std::uint64_t id : photons) {
+      RandomStream random(seed, stream, id);
+      const EmittedPhoton born = source.emit(random);
+      if (random.uniform() >= acceptance_.walked_share(born.wavelength)) continue;
+      clear(trace.scores, ice_.layers().size());
+      hits.clear();
+      walk_one(born, id, random, task);
+    }
+  }
+
  private:
   void walk_one(const EmittedPhoton& born, std::uint64_t id, RandomStream& random, Task& task) const {
-    Photon photon{
-        id, born.position.cast<double>(), born.direction.cast<double>(), born.time, born.wavelength, 0, 0, 0};
+    Photon photon{};
+    photon.id = id;
+    photon.position = born.position.cast<double>();
+    photon.direction = born.direction.cast<double>();
+    photon.time = born.time;
+    photon.wavelength = born.wavelength;
+    photon.dust_factor = ice_.absorption_dust_factor(photon.wavelength);
+    photon.thermal_factor = ice_.absorption_thermal_factor(photon.wavelength);
+    photon.scattering_factor = ice_.scattering_power_factor(photon.wavelength);
     const double speed = speed_of_light / group_index(photon.wavelength);
     photon.absorption_budget = task.batch.absorption_stretch * random.exponential();
     photon.absorption_depth = photon.absorption_budget;
@@ -91,11 +136,12 @@ class PlainWalker : public PhotonWalker {
       const Piece piece = next_piece(photon);
       const bool stopped = meet_modules(photon, piece, speed, random, task);
       if (stopped || piece.end == Piece::End::absorption) return;
+      if (task.trace) score_piece(photon, piece, *task.trace);
       photon.position += piece.length * photon.direction;
       photon.time += piece.length / speed;
       photon.absorption_depth = piece.absorption_depth;
       photon.scattering_depth = piece.scattering_depth;
-      if (!piece.in_column) birefringent_step(photon, piece, random);
+      if (!piece.in_column) birefringent_step(photon, piece, random, task.trace);
       if (piece.end == Piece::End::limit) continue;
       scatter(photon, piece, random);
       photon.scattering_depth = random.exponential();
@@ -127,8 +173,14 @@ class PlainWalker : public PhotonWalker {
     return piece;
   }
 
-  // Spends the optical depths layer by layer; the tilt's shift is taken at the piece's start.
   Piece piece_in_ice(const Photon& photon, double limit) const {
+    return piece_in_ice(photon, limit, [](int, double, double, double) {});
+  }
+
+  // Spends the optical depths layer by layer; the tilt's shift is taken at the piece's start. Calls
+  // visit(layer, length, isotropic absorption, absorption) for each layer's share.
+  template <class Visit>
+  Piece piece_in_ice(const Photon& photon, double limit, Visit&& visit) const {
     const double step = ice_.layer_step(), slope = photon.direction.z();
     const int last = static_cast<int>(ice_.layers().size()) - 1;
     double z = photon.position.z() - ice_.tilt().shift(static_cast<float>(photon.position.x()),
@@ -141,8 +193,10 @@ class PlainWalker : public PhotonWalker {
     const double absorption_factor = anisotropic_absorption(photon.direction, piece.layer);
     for (;;) {
       const IceLayer& ice = ice_.layers()[piece.layer];
-      const double scattering = ice_.geometric_scattering(piece.layer, photon.wavelength);
-      const double absorption = absorption_factor * ice_.absorption(piece.layer, photon.wavelength);
+      const double scattering = scattering_of(photon, piece.layer);
+      const double isotropic =
+          ice.absorption_dust * photon.dust_factor + ice.absorption_thermal * photon.thermal_factor;
+      const double absorption = absorption_factor * isotropic;
       const double to_scatter = piece.scattering_depth / scattering;
       const double to_absorb = piece.absorption_depth / absorption;
       const double to_limit = limit - piece.length;
@@ -151,6 +205,7 @@ class PlainWalker : public PhotonWalker {
       const double to_boundary =
           slope == 0 || next < 0 || next > last ? unlimited : std::max(0.0, (boundary - z) / slope);
       const double length = std::min({to_scatter, to_absorb, to_boundary, to_limit});
+      visit(piece.layer, length, isotropic, absorption);
       piece.length += length;
       piece.diffusion += length * ice.diffusion_strength;
       piece.deflection += length * ice.deflection_strength;
@@ -166,13 +221,23 @@ class PlainWalker : public PhotonWalker {
     }
   }
 
+  double scattering_of(const Photon& photon, int layer) const {  // geometric
+    const IceLayer& ice = ice_.layers()[static_cast<std::size_t>(layer)];
+    return (ice.scattering_constant + ice.scattering_power * photon.scattering_factor) /
+           (1 - ice_.mean_cosine());
+  }
+
   double anisotropic_absorption(const Vec3& direction, int layer) const {
     const auto [n1, n2, n3] = flow_components(direction);
     const auto& K = ice_.absorption_anisotropy();
-    double factor = absorption_anisotropy_factor(K[0], K[1], K[2], n1, n2, n3);
-    if (const double f = ice_.old_absorption_scaling(); f != 0)
-      factor *= old_absorption_factor(ice_.layers()[layer].k1, ice_.layers()[layer].k2, f, n1, n2, n3);
-    return factor;
+    return absorption_anisotropy_factor(K[0], K[1], K[2], n1, n2, n3) * old_absorption(n1, n2, n3, layer);
+  }
+
+  // Of the oldest models; 1 where there is none.
+  double old_absorption(double n1, double n2, double n3, int layer) const {
+    const double f = old_scaling_;
+    const IceLayer& ice = ice_.layers()[static_cast<std::size_t>(layer)];
+    return f == 0 ? 1 : old_absorption_factor(ice.k1, ice.k2, f, n1, n2, n3);
   }
 
   // True when the photon ends here: on a module of nominal size, or back on the module that emitted it.
@@ -193,6 +258,7 @@ class PlainWalker : public PhotonWalker {
         const auto time = static_cast<float>(photon.time + crossing.distance / speed);
         task.hits.push_back({crossing.module, time, wavelength, direction, crossing.inward, photon.id,
                              weight(photon, piece, crossing.distance, task.batch.absorption_stretch)});
+        if (task.trace) score_hit(photon, piece, crossing.distance, task.hits.back(), *task.trace);
       }
       if (oversize_ == 1) return true;
     }
@@ -213,7 +279,58 @@ class PlainWalker : public PhotonWalker {
     return weight_of_stretched(photon.absorption_budget - flown.absorption_depth, stretch);
   }
 
-  void birefringent_step(Photon& photon, const Piece& piece, RandomStream& random) const {
+  // A flight of this length that ends in neither scatter nor absorption. Calls visit(layer, length).
+  template <class Visit>
+  void score_flight(const Photon& photon, double length, PathScores& scores, Visit&& visit) const {
+    const auto [n1, n2, n3] = flow_components(photon.direction);
+    const auto& K = ice_.absorption_anisotropy();
+    const double anisotropy = absorption_anisotropy_factor(K[0], K[1], K[2], n1, n2, n3);
+    const double slope[3] = {K[0] * n1 * n1, K[1] * n2 * n2, K[2] * n3 * n3};
+    piece_in_ice(photon, length, [&](int layer, double flown, double isotropic, double absorption) {
+      PathScores::Layer& score = scores.layers[static_cast<std::size_t>(layer)];
+      score.absorption -= flown * absorption / isotropic;
+      score.scattering -= flown;
+      const double lost = flown * absorption * anisotropy * anisotropy;
+      for (std::size_t i = 0; i < 3; ++i) scores.absorption_anisotropy[i] += lost * slope[i];
+      scores.lowest = std::min(scores.lowest, layer);
+      scores.highest = std::max(scores.highest, layer);
+      visit(layer, flown);
+    });
+  }
+
+  void score_piece(const Photon& photon, const Piece& piece, Trace& trace) const {
+    trace.last_piece.clear();
+    if (piece.in_column) return;
+    score_flight(photon, piece.length, trace.scores, [&](int layer, double length) {
+      trace.last_piece.push_back({layer, length});
+    });
+    if (piece.end == Piece::End::scatter)
+      trace.scores.layers[static_cast<std::size_t>(piece.layer)].scattering +=
+          1 / scattering_of(photon, piece.layer);
+  }
+
+  void score_hit(const Photon& photon, const Piece& piece, double distance, const SimulatedHit& hit,
+                 const Trace& trace) const {
+    PathScores scores = trace.scores;
+    if (!piece.in_column) score_flight(photon, distance, scores, [](int, double) {});
+    trace.sink(hit, scores);
+  }
+
+  // Of the widths, whose squares grow with the diffusion strength integrated along the piece, V, from the
+  // normals g: (g^2 - 1)/(2V) each; of the mean, in units of the width.
+  static void score_birefringence(const Piece& piece, double squares, int normals, double mean_pull,
+                                  Trace& trace) {
+    if (!(piece.diffusion > 0)) return;
+    const double diffusion = (squares - normals) / (2 * piece.diffusion);
+    const double deflection = mean_pull / std::sqrt(piece.diffusion);
+    for (const auto& [layer, length] : trace.last_piece) {
+      PathScores::Layer& score = trace.scores.layers[static_cast<std::size_t>(layer)];
+      score.diffusion += length * diffusion;
+      score.deflection += length * deflection;
+    }
+  }
+
+  void birefringent_step(Photon& photon, const Piece& piece, RandomStream& random, Trace* trace) const {
     if (!ice_.birefringence()) return;
     const BirefringenceNumbers& numbers = *ice_.birefringence();
     const auto [g1, g2] = gaussian_pair(random);
@@ -227,6 +344,10 @@ class PlainWalker : public PhotonWalker {
         frame, width * one_metre.sigma_x, width * one_metre.sigma_y, drift * one_metre.mean_x, g1, g2, g3, g4,
         numbers.displacement ? piece.length : 0.0, n.x(), n.y(), n.z(), r.x(), r.y(), r.z());
     n.normalize();
+    if (!trace || !numbers.diffusion) return;  // without widths there is nothing to weight
+    const bool both = numbers.displacement;
+    score_birefringence(piece, g1 * g1 + g2 * g2 + (both ? g3 * g3 + g4 * g4 : 0), both ? 4 : 2,
+                        numbers.deflection ? g1 * one_metre.mean_x / one_metre.sigma_x : 0, *trace);
   }
 
   void scatter(Photon& photon, const Piece& piece, RandomStream& random) const {
@@ -266,6 +387,7 @@ class PlainWalker : public PhotonWalker {
   ClearanceMap clearance_;
   HoleIceColumns columns_;
   PhotonAcceptance acceptance_;
+  double old_scaling_;
   ScatteringFunction<double> ice_scattering_, column_scattering_;
   Eigen::Vector2d flow_;
 };
@@ -273,6 +395,10 @@ class PlainWalker : public PhotonWalker {
 }  // namespace
 
 std::unique_ptr<PhotonWalker> make_plain_walker(const Model& model, double oversize) {
+  return std::make_unique<PlainWalker>(model, oversize);
+}
+
+std::unique_ptr<PathTracer> make_path_tracer(const Model& model, double oversize) {
   return std::make_unique<PlainWalker>(model, oversize);
 }
 

@@ -257,10 +257,11 @@ Search::End Search::better_of(const RoundEnd& first, const RoundEnd& second) {
   ends[1] = finish(sharpen_within_minimum(second), &ends[0]);
   if (same_minimum(ends[0].light, ends[1].light)) return ends[ends[0].unsolved && ends[1].converged ? 1 : 0];
 
-  const double photons =
-      photons_for(cascade_of(ends[0].light, options_.kind), options_.oversize, {20, 1e6, 2e7});
+  // Wide modules: so many more photons are worth more than what they blur.
+  const double oversize = training_oversize(data_, ends[0].light, options_.oversize);
+  const double photons = photons_for(cascade_of(ends[0].light, options_.kind), oversize, {20, 1e6, 2e7});
   Evaluation values[2];
-  for (int i = 0; i < 2; ++i) values[i] = measure(ends[i].light, options_.oversize, photons);
+  for (int i = 0; i < 2; ++i) values[i] = measure(ends[i].light, oversize, photons);
   ++contests_;
   const int best = values[0].neg_llh <= values[1].neg_llh ? 0 : 1;
   const Difference worse = difference(values[1 - best], values[best]);

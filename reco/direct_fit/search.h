@@ -82,9 +82,10 @@ class Search {
   // calibration.
   struct CalibrationNeed {
     PlaceErrors errors;
-    double reach = 1, training = 1;  // times the usual
+    double reach = 1, training = 1, judging = 1;  // times the usual
   };
   void calibrate(End& end, CalibrationNeed& need);
+  End refined(const End& end, CalibrationNeed need);
   std::vector<const LightSample*> enough(const LocalFrame& frame, Stage stage, double photons,
                                          Purpose purpose);
   // A minimum on the way, measured by fresh simulations.

@@ -15,6 +15,7 @@ constexpr double acceptable_pull = 1.5;  // of the last step of all
 // they are taught with more photons, up to so many times the usual.
 constexpr double least_fresh_share = 0.2, acceptable_loss = 1.3, most_training = 6;
 constexpr double acceptable_dispersion = 1.8, least_reach = 0.3;
+constexpr double last_judging = 2.5;  // photons of the last calibration, times the usual
 constexpr double close_enough = 1.2;  // last steps, in steps of the narrow design
 // [photoelectrons] expected: hardly any module stays dark.
 constexpr double surely_seen = 4;
@@ -38,6 +39,7 @@ Search::End Search::finish(const RoundEnd& rough, const End* known) {
     if (end.pull < acceptable_pull) found = end;
   }
   if (!end.converged && found) end = *found;
+  if (end.converged) end = refined(end, need);
   end.unsolved |= !end.converged && !found;
   if (end.unsolved) {
     end.calibration.reset();
@@ -52,6 +54,15 @@ Search::End Search::finish(const RoundEnd& rough, const End* known) {
   }
   end.converged |= !end.unsolved;
   return end;
+}
+
+// The last calibration once more with more photons: what their noise adds to the errors is the largest share
+// that the data do not make.
+Search::End Search::refined(const End& end, CalibrationNeed need) {
+  End last = end;
+  need.judging = last_judging;
+  calibrate(last, need);
+  return last.unsolved || !(last.pull < acceptable_pull) ? end : last;
 }
 
 // Simulations near by that have so many photons together: as many as are missing are made.
@@ -72,7 +83,7 @@ void Search::calibrate(End& end, CalibrationNeed& need) {
   const auto [wide, narrow] =
       calibration_stages(data_, end.light, need.errors, need.reach, options_.oversize);
   const double for_training = need.training * photons_for(here, wide.oversize, {100, 1e6, 1e7});
-  const double for_judging = photons_for(here, narrow.oversize, {5, 2e6, 3.2e7});
+  const double for_judging = need.judging * photons_for(here, narrow.oversize, {5, 2e6, 3.2e7});
   const std::vector<const LightSample*> training[2] = {
       enough(frame, wide, for_training, Purpose::first_emulator),
       enough(frame, wide, for_training, Purpose::second_emulator)};

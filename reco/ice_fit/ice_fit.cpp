@@ -1,0 +1,273 @@
+#include "reco/ice_fit/ice_fit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "data/base/error.h"
+#include "reco/ice_fit/ice_solution.h"
+#include "reco/ice_fit/run_light.h"
+#include "reco/ice_fit/score_system.h"
+#include "reco/likelihood/limited_simulation.h"
+
+namespace floe {
+
+namespace {
+
+constexpr double scout_share = 0.1;    // of a run's light: where to put the bins
+constexpr double first_photons = 3e8;  // N of the first look at a run
+constexpr double longest_step = 0.7;   // of a round, in the logarithm
+constexpr double settled = 0.5;        // a step so small, in its errors, is the last
+constexpr double weight_step = 1e-4, pair_step = 0.1;
+constexpr double saturation = 500;  // photoelectrons of a flash
+constexpr std::uint64_t streams_a_run = 1 << 10, streams_a_round = 1 << 20;
+
+// What is known of a run between rounds.
+struct RunState {
+  double hits_per_photon = 0;  // simulated, of used receivers
+  double brightness = 1;  // data counts of all flashes for a simulated hit of N = 1: counts/(hits_per_photon)
+  double time_zero = 0;
+};
+
+void check(const IceFitOptions& options) {
+  const auto require = [](bool right, const char* what) {
+    if (!right) throw UsageError(what);
+  };
+  require(options.oversize >= 1 && options.oversize <= 100, "the oversize factor must be between 1 and 100");
+  require(options.light > 0, "the simulated light must be more than none of the data's");
+  require(options.model_error >= 0 && options.model_error <= 1, "the model error must be between 0 and 1");
+  require(options.smoothness > 0 && options.amplitude > 0, "the widths of priors must be positive");
+  require(options.most_rounds >= 1, "a fit needs at least one round");
+}
+
+// Hits with the run's time zero.
+SimulatedRun simulate(const Model& model, const RunRequest& request, double time_zero) {
+  SimulatedRun run = simulate_run(model, request);
+  for (SimulatedHit& hit : run.hits) hit.time += static_cast<float>(time_zero);
+  return run;
+}
+
+double used_hits(const SimulatedRun& simulated, const RunData& run) {
+  double hits = 0;
+  for (const SimulatedHit& hit : simulated.hits) hits += run.used[hit.module];
+  return hits;
+}
+
+// Variance of sums of hits over that of independent ones: a photon may be seen more than once.
+double dispersion(const SimulatedRun& run) {
+  double square = 0;
+  for (std::size_t i = 0; i < run.hits.size();) {
+    std::size_t k = i;
+    while (k < run.hits.size() && run.hits[k].photon == run.hits[i].photon) ++k;
+    square += static_cast<double>((k - i) * (k - i));
+    i = k;
+  }
+  return run.hits.empty() ? 1 : square / static_cast<double>(run.hits.size());
+}
+
+class Fit {
+ public:
+  Fit(const Model& base, FlasherData data, const std::vector<IceParameter>& parameters,
+      const IceFitOptions& options, const Progress& progress)
+      : base_(base),
+        data_(std::move(data)),
+        options_(options),
+        progress_(progress),
+        states_(data_.runs.size()) {
+    fit_.parameters = parameters;
+    for (const IceParameter& parameter : parameters) fit_.numbers.push_back(parameter.start);
+  }
+
+  IceFit run() {
+    look_first();
+    for (round_ = 1; round_ <= options_.most_rounds && !fit_.converged; ++round_) one_round();
+    fit_.rounds = round_ - 1;
+    judge();
+    return std::move(fit_);
+  }
+
+ private:
+  std::size_t count() const { return fit_.parameters.size(); }
+  Model model() const { return with_parameters(base_, fit_.parameters, fit_.numbers); }
+
+  RunRequest request(std::size_t r, std::uint64_t purpose, double photons) const {
+    return {data_.runs[r].run,
+            photons,
+            options_.oversize,
+            options_.seed,
+            static_cast<std::uint64_t>(round_) * streams_a_round + r * streams_a_run + purpose,
+            options_.threads};
+  }
+
+  // How much light of each run is seen, in the starting model.
+  void look_first() {
+    const Model model = this->model();
+    for (std::size_t r = 0; r < states_.size(); ++r) {
+      const RunData& run = data_.runs[r];
+      const SimulatedRun simulated = simulate_run(model, request(r, 0, first_photons));
+      fit_.photons += simulated.propagated;
+      states_[r].hits_per_photon = std::max(1.0, used_hits(simulated, run)) / first_photons;
+      states_[r].brightness = run.charge / states_[r].hits_per_photon;
+    }
+  }
+
+  double photons_of(std::size_t r) const {
+    const double hits = std::max(options_.least_hits, options_.light * data_.runs[r].charge);
+    return std::min(options_.most_photons, hits / states_[r].hits_per_photon);
+  }
+
+  RunBins bins_of(const Model& model, std::size_t r) {
+    const RunData& run = data_.runs[r];
+    const double photons = scout_share * photons_of(r);
+    const SimulatedRun scout = simulate(model, request(r, 1, photons), states_[r].time_zero);
+    fit_.photons += scout.propagated;
+    return RunBins(scout.hits, states_[r].brightness / photons, run.used, {});
+  }
+
+  ScoreMap scores_of(const Model& model, double wavelength, std::vector<int>& pairs) const {
+    ScoreMap map(model, wavelength, static_cast<int>(count()));
+    for (std::size_t p = 0; p < count(); ++p) {
+      std::vector<double> moved = fit_.numbers;
+      moved[p] += weight_step;
+      if (!map.add(static_cast<int>(p), with_parameters(base_, fit_.parameters, moved), weight_step))
+        pairs.push_back(static_cast<int>(p));
+    }
+    return map;
+  }
+
+  // Slopes that weights cannot give: from two simulations with the random numbers of the first.
+  void add_pair(const RunRequest& request, double time_zero, const RunBins& bins, int p, RunLight& light) {
+    for (const double side : {-1.0, 1.0}) {
+      std::vector<double> moved = fit_.numbers;
+      moved[static_cast<std::size_t>(p)] += side * pair_step;
+      const SimulatedRun simulated =
+          simulate(with_parameters(base_, fit_.parameters, moved), request, time_zero);
+      fit_.photons += simulated.propagated;
+      const RunLight counted = count_light(simulated, bins, request.photons, 0);
+      for (int fold = 0; fold < 2; ++fold) {
+        light.folds[fold].slopes.col(p) += side / (2 * pair_step) * counted.folds[fold].counts;
+        light.folds[fold].slope_squares.col(p) += counted.folds[fold].counts / (4 * pair_step * pair_step);
+      }
+    }
+  }
+
+  void one_round() {
+    const Model model = this->model();
+    const auto runs = states_.size();
+    ScoreSystem system(static_cast<int>(count() + 2 * runs));
+    for (std::size_t r = 0; r < runs; ++r) {
+      report(r, "walking in the light of");
+      add_run_to(model, r, system);
+    }
+    const IceSolution solution = solve_ice(system, fit_.parameters, fit_.numbers,
+                                           {options_.smoothness, options_.amplitude}, longest_step);
+    double furthest = 0;
+    for (std::size_t p = 0; p < count(); ++p) {
+      const auto i = static_cast<Eigen::Index>(p);
+      fit_.numbers[p] += solution.step(i);
+      furthest = std::max(furthest, std::abs(solution.step(i)) / std::sqrt(solution.covariance(i, i)));
+    }
+    for (std::size_t r = 0; r < runs; ++r) {
+      const auto i = static_cast<Eigen::Index>(count() + 2 * r);
+      states_[r].brightness *= std::exp(solution.step(i));
+      states_[r].time_zero += solution.step(i + 1);
+    }
+    fit_.covariance = solution.covariance;
+    fit_.light_errors = solution.light_errors;
+    fit_.converged = furthest < settled;
+  }
+
+  void add_run_to(const Model& model, std::size_t r, ScoreSystem& system) {
+    const RunData& run = data_.runs[r];
+    RunState& state = states_[r];
+    const double photons = photons_of(r);
+    const RunBins bins = bins_of(model, r);
+    const RunRequest request = this->request(r, 2, photons);
+    const SimulatedRun simulated = simulate(model, request, state.time_zero);
+    fit_.photons += simulated.propagated;
+    std::vector<int> pairs;
+    const ScoreMap map = scores_of(model, run.run.wavelength, pairs);
+    RunLight light = light_with_slopes(model, request, simulated, bins, map, state.time_zero);
+    for (const int p : pairs) add_pair(request, state.time_zero, bins, p, light);
+
+    const double hits = used_hits(simulated, run);
+    state.hits_per_photon = std::max(1.0, hits) / photons;
+    RunCounts counts;
+    counts.data = run.counts(bins);
+    counts.scale = state.brightness / light.photons;
+    counts.dispersion = dispersion(simulated);
+    counts.data_dispersion = run.run.oversize > 1 ? counts.dispersion : 1;
+    counts.model_error = options_.model_error;
+    add_run(light, counts, static_cast<int>(count() + 2 * r), system);
+  }
+
+  // Fresh simulations say how well the result fits.
+  void judge() {
+    const Model model = this->model();
+    for (std::size_t r = 0; r < states_.size(); ++r) {
+      report(r, "measuring the fit to");
+      const RunData& run = data_.runs[r];
+      const RunBins bins = bins_of(model, r);
+      const double photons = photons_of(r);
+      const SimulatedRun simulated = simulate(model, request(r, 2, photons), states_[r].time_zero);
+      fit_.photons += simulated.propagated;
+      RunResult result;
+      result.name = run.name;
+      result.brightness = states_[r].brightness / run.repeats;
+      result.time_zero = states_[r].time_zero;
+      result.bins = bins.size();
+      const RunLight light = count_light(simulated, bins, photons, 0);
+      const Eigen::VectorXd counts = run.counts(bins);
+      const double factor = dispersion(simulated);
+      for (int b = 0; b < bins.size(); ++b) {
+        const double seen = (light.folds[0].counts(b) + light.folds[1].counts(b)) / factor;
+        result.neg_llh += limited_simulation({counts(b), states_[r].brightness, seen, photons / factor},
+                                             options_.model_error)
+                              .value;
+      }
+      fit_.neg_llh += result.neg_llh;
+      fit_.bins += result.bins;
+      fit_.runs.push_back(result);
+    }
+  }
+
+  void report(std::size_t r, const char* what) const {
+    if (!progress_) return;
+    const double rounds = options_.most_rounds + 1, runs = static_cast<double>(states_.size());
+    progress_((round_ - 1 + static_cast<double>(r) / runs) / rounds,
+              fmt::format("round {}: {} {}", round_, what, data_.runs[r].name));
+  }
+
+  const Model& base_;
+  FlasherData data_;
+  const IceFitOptions& options_;
+  const Progress& progress_;
+  std::vector<RunState> states_;
+  int round_ = 0;
+  IceFit fit_;
+};
+
+}  // namespace
+
+double IceFit::value(std::size_t i) const {
+  return parameters[i].logarithmic ? std::exp(numbers[i]) : numbers[i];
+}
+
+double IceFit::error(std::size_t i) const {
+  const auto k = static_cast<Eigen::Index>(i);
+  const double error = std::sqrt(covariance(k, k));
+  return parameters[i].logarithmic ? value(i) * error : error;
+}
+
+IceFit fit_ice(const Model& base, const FlasherData& data, const std::vector<IceParameter>& parameters,
+               const IceFitOptions& options, const Progress& progress) {
+  check(options);
+  const auto start = std::chrono::steady_clock::now();
+  IceFit fit = Fit(base, data, parameters, options, progress).run();
+  fit.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return fit;
+}
+
+}  // namespace floe

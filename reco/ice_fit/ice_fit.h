@@ -1,0 +1,60 @@
+// Fits parameters of the ice to flasher data: every layer's absorption, scattering, birefringence at once.
+// Theory: docs/theory/ice_fit.md.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "data/base/progress.h"
+#include "propagation/model.h"
+#include "reco/ice_fit/ice_parameter.h"
+#include "reco/ice_fit/run_data.h"
+
+namespace floe {
+
+struct IceFitOptions {
+  double oversize = 16;        // of the simulations, 1-100
+  double light = 10;           // simulated light, in units of the data's, at least
+  double least_hits = 1e5;     // simulated hits of a run, at least
+  double most_photons = 2e11;  // N of a run's simulation, at most
+  double model_error = 0;      // relative, of every bin's expectation
+  double smoothness = 0.5;     // prior: width of the difference between neighbouring layers, in the logarithm
+  double amplitude = 1;        // prior: width of each parameter about its start, in the logarithm
+  int most_rounds = 6;
+  std::uint64_t seed = 1;
+  int threads = 0;  // 0: all cores
+};
+
+struct RunResult {
+  std::string name;
+  double brightness = 1;  // of a flash, in nominal photons N
+  double time_zero = 0;   // [ns]
+  double neg_llh = 0;     // limited-simulation likelihood (reco/likelihood), saturated
+  int bins = 0;
+};
+
+struct IceFit {
+  std::vector<IceParameter> parameters;
+  std::vector<double> numbers;       // as IceParameter::apply takes them
+  Eigen::MatrixXd covariance;        // of the numbers, data and simulation and priors together
+  std::vector<double> light_errors;  // without the priors; infinite where the data say nothing
+  std::vector<RunResult> runs;
+  double neg_llh = 0;
+  int bins = 0, rounds = 0;
+  bool converged = false;
+  double seconds = 0;
+  std::uint64_t photons = 0;  // propagated
+
+  double value(std::size_t i) const;  // as shown: exp() of logarithmic numbers
+  double error(std::size_t i) const;  // of value()
+};
+
+// Gauss-Newton rounds: simulate every run in the current model, read slopes off the detected photons' paths,
+// solve for the parameters with Ceres (each run's brightness and time zero fitted along), until the step is
+// small. Throws UsageError for options out of range, NoResult when no run has light to fit.
+IceFit fit_ice(const Model& base, const FlasherData& data, const std::vector<IceParameter>& parameters,
+               const IceFitOptions& options, const Progress& progress = {});
+
+}  // namespace floe

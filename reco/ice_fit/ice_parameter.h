@@ -1,0 +1,42 @@
+// What a fit of the ice may change.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "propagation/model.h"
+#include "propagation/model_parts.h"
+
+namespace floe {
+
+// One number of the fit. Numbers that are positive by nature are fitted as logarithms.
+struct IceParameter {
+  std::string name;          // e.g. "absorption 1775 m"
+  std::string unit;          // of the value that is shown; empty for a pure number
+  bool logarithmic = false;  // the value shown is the exponential of the number
+  double start = 0, low = 0, high = 0;
+  double prior = 0;  // width of a Gaussian about the start; 0: none
+  // Neighbours of one family, in order of depth, are held together by the smoothness prior.
+  std::string family;
+  double depth = 0;  // of the middle, for families over depth [m]
+  std::function<void(double number, ModelParts& model)> apply;
+};
+
+// Depths that a family is divided over: rows of the layer table, in groups of equal thickness. Rows beyond
+// the range follow the outermost group.
+struct DepthRange {
+  double top, bottom;  // [m]
+  int groups;
+};
+
+// A factor for each group of layers. `kind`: absorption (dust absorption), scattering (effective scattering)
+// or birefringence (strength; a model without birefringence starts from the published numbers at strength 1).
+enum class LayerFamily { absorption, scattering, birefringence };
+std::vector<IceParameter> layer_parameters(LayerFamily family, const Model& base, const DepthRange& range);
+
+// The model with all parameters at these numbers.
+Model with_parameters(const Model& base, const std::vector<IceParameter>& parameters,
+                      const std::vector<double>& numbers);
+
+}  // namespace floe

@@ -1,0 +1,28 @@
+// Solves the estimating equations of an ice fit, with its priors, within the parameters' limits.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "reco/ice_fit/ice_parameter.h"
+#include "reco/ice_fit/score_system.h"
+
+namespace floe {
+
+struct IcePriors {
+  double smoothness = 0.5;  // width of the difference between neighbours of a family
+  double amplitude = 1;     // width about the start, where a parameter has no prior of its own
+};
+
+struct IceSolution {
+  Eigen::VectorXd step;              // parameters, then each run's logarithm of brightness and time zero [ns]
+  Eigen::MatrixXd covariance;        // of the parameters, nuisances profiled
+  std::vector<double> light_errors;  // without priors
+};
+
+// Minimises |L^-1 (gap - slope step)|^2/2 + priors with Ceres, noise = L L'; no parameter moves further than
+// `longest` and none leaves its limits.
+IceSolution solve_ice(const ScoreSystem& system, const std::vector<IceParameter>& parameters,
+                      const std::vector<double>& numbers, const IcePriors& priors, double longest);
+
+}  // namespace floe

@@ -1,0 +1,46 @@
+#include "reco/ice_fit/run_bins.h"
+
+#include <algorithm>
+
+namespace floe {
+
+namespace {
+
+std::vector<double> quantiles(std::vector<double>& times, int bins) {
+  std::sort(times.begin(), times.end());
+  std::vector<double> edges;
+  for (int i = 1; i < bins; ++i) {
+    const double edge = times[times.size() * static_cast<std::size_t>(i) / static_cast<std::size_t>(bins)];
+    if (edges.empty() || edge > edges.back()) edges.push_back(edge);
+  }
+  return edges;
+}
+
+}  // namespace
+
+RunBins::RunBins(std::span<const SimulatedHit> hits, double scale, const std::vector<char>& used,
+                 const Rules& rules)
+    : receiver_of_(used.size(), -1) {
+  std::vector<std::vector<double>> times(used.size());
+  for (const SimulatedHit& hit : hits)
+    if (used[hit.module]) times[hit.module].push_back(hit.time);
+  for (std::uint32_t module = 0; module < used.size(); ++module) {
+    const auto simulated = static_cast<double>(times[module].size());
+    if (scale * simulated < rules.least_counts) continue;
+    const double wanted = std::min(scale, 1.0) * simulated / rules.counts_a_bin;
+    const int bins = std::clamp(static_cast<int>(wanted), 1, rules.most_bins);
+    receiver_of_[module] = static_cast<int>(receivers_.size());
+    receivers_.push_back({module, size_, quantiles(times[module], bins)});
+    size_ += receivers_.back().bins();
+  }
+}
+
+int RunBins::bin(std::uint32_t module, double time) const {
+  const int receiver = receiver_of_[module];
+  if (receiver < 0) return -1;
+  const Receiver& r = receivers_[static_cast<std::size_t>(receiver)];
+  const auto above = std::upper_bound(r.inner_edges.begin(), r.inner_edges.end(), time);
+  return r.first + static_cast<int>(above - r.inner_edges.begin());
+}
+
+}  // namespace floe

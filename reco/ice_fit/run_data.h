@@ -1,0 +1,46 @@
+// Measured light of flasher runs, screened: what is left out is said in words.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "data/event.h"
+#include "geometry/detector.h"
+#include "reco/ice_fit/run_bins.h"
+
+namespace floe {
+
+struct RunData {
+  struct Pulse {
+    std::uint32_t module;
+    double time, charge;  // charge of all flashes together
+  };
+  std::string name;
+  FlasherRun run;
+  double repeats = 1;
+  std::vector<Pulse> pulses;
+  std::vector<char> used;  // by module: looked at in this run
+  double charge = 0;       // of used modules
+
+  Eigen::VectorXd counts(const RunBins& bins) const;
+};
+
+struct FlasherData {
+  std::vector<RunData> runs;
+  std::vector<std::string> left_out;  // a sentence each
+};
+
+// The flasher runs among the events. Left out, with a sentence: events that are no flasher run, runs without
+// any light, runs at another wavelength than most, modules that are off, the flashing module itself.
+// Throws InputError for modules that the detector does not have, and NoResult when no run is left.
+FlasherData flasher_data(const Detector& detector, std::span<const Event> events);
+
+// Leaves out receivers that cannot be right by any ice: dark in every run where `expected` light (per run and
+// module, as counts of the data) is plenty, and those that are near saturation, where one flash brings more
+// than `saturation` photoelectrons.
+void leave_out_bad_receivers(const Detector& detector, const std::vector<std::vector<double>>& expected,
+                             double saturation, FlasherData& data);
+
+}  // namespace floe

@@ -1,0 +1,104 @@
+#include "reco/ice_fit/run_light.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <array>
+
+#include "propagation/sources/flasher.h"
+
+namespace floe {
+
+namespace {
+
+constexpr double time_step = 2;    // [ns] each way, for the slope in time zero
+constexpr std::size_t parts = 16;  // of the work: sums come out alike for any number of threads
+
+FlasherSource source_of(const Model& model, const RunRequest& request) {
+  FlasherRun run = request.run;
+  run.photons = request.photons;
+  const WavelengthSpectrum line =
+      run.wavelength == FlasherRun{}.wavelength ? reference_led_line() : led_line(run.wavelength);
+  return {*model.detector, run.module, adjusted(flasher_settings(run), model.sources), line};
+}
+
+LightFold empty_fold(int bins, int parameters) {
+  return {Eigen::VectorXd::Zero(bins), Eigen::MatrixXd::Zero(bins, parameters),
+          Eigen::MatrixXd::Zero(bins, parameters), Eigen::VectorXd::Zero(bins)};
+}
+
+}  // namespace
+
+SimulatedRun simulate_run(const Model& model, const RunRequest& request) {
+  const FlasherSource source = source_of(model, request);
+  const Simulator simulator(model, request.oversize);
+  SimulationOptions options;
+  options.seed = request.seed;
+  options.stream = request.stream;
+  options.threads = request.threads;
+  options.fixed_number = true;
+  SimulatedRun run;
+  run.propagated = simulator
+                       .run(source, options,
+                            [&](std::span<const SimulatedHit> hits) {
+                              run.hits.insert(run.hits.end(), hits.begin(), hits.end());
+                            })
+                       .propagated;
+  return run;
+}
+
+RunLight count_light(const SimulatedRun& run, const RunBins& bins, double photons, int parameters) {
+  RunLight light;
+  light.photons = photons / 2;
+  light.propagated = run.propagated;
+  light.hits = run.hits.size();
+  for (LightFold& fold : light.folds) fold = empty_fold(bins.size(), parameters);
+  for (const SimulatedHit& hit : run.hits) {
+    const int bin = bins.bin(hit.module, hit.time);
+    if (bin < 0) continue;
+    LightFold& fold = light.folds[hit.photon & 1];
+    fold.counts(bin) += 1;
+    fold.delay(bins.bin(hit.module, hit.time + time_step)) += 1 / (2 * time_step);
+    fold.delay(bins.bin(hit.module, hit.time - time_step)) -= 1 / (2 * time_step);
+  }
+  return light;
+}
+
+RunLight light_with_slopes(const Model& model, const RunRequest& request, const SimulatedRun& run,
+                           const RunBins& bins, const ScoreMap& map, double time_zero) {
+  RunLight light = count_light(run, bins, request.photons, map.parameters());
+  std::vector<std::uint64_t> photons;
+  for (const SimulatedHit& hit : run.hits)
+    if ((photons.empty() || photons.back() != hit.photon) && bins.bin(hit.module, hit.time) >= 0)
+      photons.push_back(hit.photon);
+  const FlasherSource source = source_of(model, request);
+  const auto tracer = make_path_tracer(model, request.oversize);
+  const int threads = request.threads > 0 ? request.threads : omp_get_num_procs();
+  const std::size_t share = (photons.size() + parts - 1) / parts;
+  std::vector<std::array<LightFold, 2>> sums(parts);
+#pragma omp parallel for schedule(dynamic) num_threads(threads)
+  for (std::size_t part = 0; part < parts; ++part) {
+    const std::size_t first = std::min(part * share, photons.size());
+    const std::span<const std::uint64_t> some(photons.data() + first,
+                                              std::min(share, photons.size() - first));
+    for (LightFold& fold : sums[part]) fold = empty_fold(bins.size(), map.parameters());
+    Eigen::VectorXd scores;
+    tracer->trace(source, request.seed, request.stream, some,
+                  [&](const SimulatedHit& hit, const PathScores& path) {
+                    const int bin = bins.bin(hit.module, hit.time + time_zero);
+                    if (bin < 0) return;
+                    map.scores(path, scores);
+                    LightFold& fold = sums[part][hit.photon & 1];
+                    fold.slopes.row(bin) += scores;
+                    fold.slope_squares.row(bin) += scores.cwiseAbs2();
+                  });
+  }
+  for (const auto& part : sums)
+    for (std::size_t fold = 0; fold < 2; ++fold) {
+      light.folds[fold].slopes += part[fold].slopes;
+      light.folds[fold].slope_squares += part[fold].slope_squares;
+    }
+  return light;
+}
+
+}  // namespace floe
