@@ -20,7 +20,8 @@ constexpr double scout_share = 0.1;    // of a run's light: where to put the bin
 constexpr double first_photons = 3e8;  // N of the first look at a run
 constexpr double longest_step = 0.7;   // of a round, in the logarithm
 constexpr double settled = 0.5;        // a step so small, in its errors, is the last
-constexpr double weight_step = 1e-4, pair_step = 0.1;
+// Differences, in the parameter's scale: for weights, which are exact, and between simulations.
+constexpr double weight_step = 1e-3, pair_step = 0.5;
 constexpr double saturation = 500;  // photoelectrons of a flash
 constexpr std::uint64_t streams_a_run = 1 << 10, streams_a_round = 1 << 20;
 
@@ -101,15 +102,24 @@ class Fit {
             options_.threads};
   }
 
-  // How much light of each run is seen, in the starting model.
+  // How much light of each run is seen, in the starting model, and which receivers cannot be right.
   void look_first() {
     const Model model = this->model();
+    std::vector<SimulatedRun> looks;
+    std::vector<std::vector<double>> expected;
     for (std::size_t r = 0; r < states_.size(); ++r) {
       const RunData& run = data_.runs[r];
-      const SimulatedRun simulated = simulate_run(model, request(r, 0, first_photons));
-      fit_.photons += simulated.propagated;
-      states_[r].hits_per_photon = std::max(1.0, used_hits(simulated, run)) / first_photons;
-      states_[r].brightness = run.charge / states_[r].hits_per_photon;
+      looks.push_back(simulate_run(model, request(r, 0, first_photons)));
+      fit_.photons += looks.back().propagated;
+      const double hits = std::max(1.0, used_hits(looks.back(), run));
+      expected.emplace_back(run.used.size(), 0.0);
+      for (const SimulatedHit& hit : looks.back().hits) expected.back()[hit.module] += run.charge / hits;
+    }
+    leave_out_bad_receivers(*model.detector, expected, saturation, data_);
+    fit_.left_out = data_.left_out;
+    for (std::size_t r = 0; r < states_.size(); ++r) {
+      states_[r].hits_per_photon = std::max(1.0, used_hits(looks[r], data_.runs[r])) / first_photons;
+      states_[r].brightness = data_.runs[r].charge / states_[r].hits_per_photon;
     }
   }
 
@@ -129,26 +139,34 @@ class Fit {
   ScoreMap scores_of(const Model& model, double wavelength, std::vector<int>& pairs) const {
     ScoreMap map(model, wavelength, static_cast<int>(count()));
     for (std::size_t p = 0; p < count(); ++p) {
-      std::vector<double> moved = fit_.numbers;
-      moved[p] += weight_step;
-      if (!map.add(static_cast<int>(p), with_parameters(base_, fit_.parameters, moved), weight_step))
-        pairs.push_back(static_cast<int>(p));
+      const double step = (fit_.numbers[p] > 0 ? -1 : 1) * weight_step * fit_.parameters[p].scale;
+      if (!map.add(static_cast<int>(p), moved_model(p, step), step)) pairs.push_back(static_cast<int>(p));
     }
     return map;
   }
 
-  // Slopes that weights cannot give: from two simulations with the random numbers of the first.
+  Model moved_model(std::size_t p, double step) const {
+    std::vector<double> moved = fit_.numbers;
+    moved[p] += step;
+    return with_parameters(base_, fit_.parameters, moved);
+  }
+
+  // Slopes that weights cannot give: from two simulations with the random numbers of the first, as far apart
+  // as the parameter's limits allow.
   void add_pair(const RunRequest& request, double time_zero, const RunBins& bins, int p, RunLight& light) {
-    for (const double side : {-1.0, 1.0}) {
-      std::vector<double> moved = fit_.numbers;
-      moved[static_cast<std::size_t>(p)] += side * pair_step;
-      const SimulatedRun simulated =
-          simulate(with_parameters(base_, fit_.parameters, moved), request, time_zero);
+    const auto index = static_cast<std::size_t>(p);
+    const IceParameter& parameter = fit_.parameters[index];
+    const double number = fit_.numbers[index], reach = pair_step * parameter.scale;
+    const double down = std::max(-reach, parameter.low - number),
+                 up = std::min(reach, parameter.high - number);
+    for (const double step : {down, up}) {
+      const SimulatedRun simulated = simulate(moved_model(index, step), request, time_zero);
       fit_.photons += simulated.propagated;
       const RunLight counted = count_light(simulated, bins, request.photons, 0);
+      const double factor = (step == up ? 1 : -1) / (up - down);
       for (int fold = 0; fold < 2; ++fold) {
-        light.folds[fold].slopes.col(p) += side / (2 * pair_step) * counted.folds[fold].counts;
-        light.folds[fold].slope_squares.col(p) += counted.folds[fold].counts / (4 * pair_step * pair_step);
+        light.folds[fold].slopes.col(p) += factor * counted.folds[fold].counts;
+        light.folds[fold].slope_squares.col(p) += factor * factor * counted.folds[fold].counts;
       }
     }
   }

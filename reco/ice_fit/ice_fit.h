@@ -16,8 +16,8 @@ namespace floe {
 
 struct IceFitOptions {
   double oversize = 16;        // of the simulations, 1-100
-  double light = 10;           // simulated light, in units of the data's, at least
-  double least_hits = 1e5;     // simulated hits of a run, at least
+  double light = 5;            // simulated light, in units of the data's, at least
+  double least_hits = 3e4;     // simulated hits of a run, at least
   double most_photons = 2e11;  // N of a run's simulation, at most
   double model_error = 0;      // relative, of every bin's expectation
   double smoothness = 0.5;     // prior: width of the difference between neighbouring layers, in the logarithm
@@ -41,6 +41,7 @@ struct IceFit {
   Eigen::MatrixXd covariance;        // of the numbers, data and simulation and priors together
   std::vector<double> light_errors;  // without the priors; infinite where the data say nothing
   std::vector<RunResult> runs;
+  std::vector<std::string> left_out;  // of the data, a sentence each
   double neg_llh = 0;
   int bins = 0, rounds = 0;
   bool converged = false;

@@ -1,15 +1,19 @@
 #include "reco/ice_fit/ice_parameter.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "data/base/error.h"
 #include "propagation/effects/row_scaling.h"
 
 namespace floe {
 
 namespace {
+
+constexpr double usual_change = 0.04;  // of the range of an effect's parameter
 
 struct FamilyTraits {
   const char* name;
@@ -34,7 +38,7 @@ int group_of(double depth, const DepthRange& range) {
 
 }  // namespace
 
-std::vector<IceParameter> layer_parameters(LayerFamily family, const Model&, const DepthRange& range) {
+std::vector<IceParameter> layer_parameters(LayerFamily family, const DepthRange& range) {
   const FamilyTraits& traits = traits_of(family);
   std::vector<IceParameter> parameters;
   for (int group = 0; group < range.groups; ++group) {
@@ -46,7 +50,9 @@ std::vector<IceParameter> layer_parameters(LayerFamily family, const Model&, con
     parameter.logarithmic = true;
     parameter.low = std::log(traits.least);
     parameter.high = std::log(traits.most);
-    parameter.apply = [&traits, range, group](double number, ModelParts& model) {
+    parameter.apply = [&traits, range, group, family](double number, ModelParts& model) {
+      auto& numbers = model.ice.configuration.birefringence;
+      if (family == LayerFamily::birefringence && !numbers) numbers = published_birefringence();
       for (IceLayerRow& row : model.ice.layers)
         if (group_of(row.depth, range) == group) traits.scale(model.ice, row, std::exp(number));
     };
@@ -55,10 +61,47 @@ std::vector<IceParameter> layer_parameters(LayerFamily family, const Model&, con
   return parameters;
 }
 
+IceParameter effect_parameter(std::string_view name, const Model& base) {
+  const std::size_t dot = name.find('.');
+  const Effect& effect = find_effect(name.substr(0, dot));
+  const std::vector<EffectParameter> parameters = effect.parameters(parts_of(base));
+  std::vector<std::string> known;
+  for (const EffectParameter& parameter : parameters)
+    if (!parameter.names_a_place) known.push_back(parameter.name);
+  const std::string wanted = dot != name.npos    ? std::string(name.substr(dot + 1))
+                             : known.size() == 1 ? known[0]
+                                                 : "";
+  const bool fits = std::find(known.begin(), known.end(), wanted) != known.end();
+  if (!fits || known.size() != parameters.size())
+    throw UsageError(fmt::format(
+        "\"{}\" is nothing that can be fitted; of the effect {} {}", name, effect.name(),
+        known.size() != parameters.size() ? std::string("each module or string would be a fit of its own")
+                                          : fmt::format("expected one of {}", fmt::join(known, ", "))));
+  const auto found = std::find_if(parameters.begin(), parameters.end(),
+                                  [&](const EffectParameter& p) { return p.name == wanted; });
+  IceParameter parameter;
+  parameter.name = fmt::format("{}.{}", effect.name(), wanted);
+  parameter.unit = found->unit;
+  parameter.start = found->null_value;
+  parameter.low = found->low;
+  parameter.high = found->high;
+  parameter.scale = (found->high - found->low) * usual_change;
+  parameter.effect = EffectSetting{effect.name(), wanted, 0};
+  return parameter;
+}
+
 Model with_parameters(const Model& base, const std::vector<IceParameter>& parameters,
                       const std::vector<double>& numbers) {
   ModelParts parts = parts_of(base);
-  for (std::size_t i = 0; i < parameters.size(); ++i) parameters[i].apply(numbers[i], parts);
+  std::vector<EffectSetting> settings;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (parameters[i].apply) parameters[i].apply(numbers[i], parts);
+    if (parameters[i].effect) {
+      settings.push_back(*parameters[i].effect);
+      settings.back().value = numbers[i];
+    }
+  }
+  apply_effects(settings, parts);
   return freeze(std::move(parts));
 }
 

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "propagation/effects/effect.h"
 #include "propagation/model.h"
 #include "propagation/model_parts.h"
 
@@ -16,11 +19,13 @@ struct IceParameter {
   std::string unit;          // of the value that is shown; empty for a pure number
   bool logarithmic = false;  // the value shown is the exponential of the number
   double start = 0, low = 0, high = 0;
-  double prior = 0;  // width of a Gaussian about the start; 0: none
+  double scale = 0.35;  // of a usual change: steps of the fit are of this order
   // Neighbours of one family, in order of depth, are held together by the smoothness prior.
   std::string family;
   double depth = 0;  // of the middle, for families over depth [m]
+  // How it changes the model: a change of its own, or a parameter of an effect of the catalogue.
   std::function<void(double number, ModelParts& model)> apply;
+  std::optional<EffectSetting> effect;  // its value is the number
 };
 
 // Depths that a family is divided over: rows of the layer table, in groups of equal thickness. Rows beyond
@@ -33,7 +38,12 @@ struct DepthRange {
 // A factor for each group of layers. `kind`: absorption (dust absorption), scattering (effective scattering)
 // or birefringence (strength; a model without birefringence starts from the published numbers at strength 1).
 enum class LayerFamily { absorption, scattering, birefringence };
-std::vector<IceParameter> layer_parameters(LayerFamily family, const Model& base, const DepthRange& range);
+std::vector<IceParameter> layer_parameters(LayerFamily family, const DepthRange& range);
+
+// A parameter of an effect of the catalogue, "EFFECT.PARAMETER", or "EFFECT" alone where it has but one. It
+// starts at its value in the model. Throws UsageError for unknown names, and for parameters that name a
+// place.
+IceParameter effect_parameter(std::string_view name, const Model& base);
 
 // The model with all parameters at these numbers.
 Model with_parameters(const Model& base, const std::vector<IceParameter>& parameters,

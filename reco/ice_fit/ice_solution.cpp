@@ -50,7 +50,7 @@ PriorRows prior_rows(const std::vector<IceParameter>& parameters, const std::vec
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const IceParameter& p = parameters[i];
     const auto column = static_cast<Eigen::Index>(i);
-    const double width = p.prior > 0 ? p.prior : p.family.empty() ? 0 : priors.amplitude;
+    const double width = p.family.empty() ? 0 : priors.amplitude;
     if (width > 0) {
       rows.emplace_back(Eigen::VectorXd::Unit(size, column) / width);
       values.push_back((p.start - numbers[i]) / width);
@@ -92,10 +92,10 @@ IceSolution solve_ice(const ScoreSystem& system, const std::vector<IceParameter>
   if (prior.b.size() > 0) problem.AddResidualBlock(new LinearCost(prior.A, prior.b), nullptr, x.data());
   for (Eigen::Index i = 0; i < size; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    double low = -longest, high = longest;
+    double low = 0, high = 0;
     if (i < count) {
-      low = std::max(low, parameters[k].low - numbers[k]);
-      high = std::min(high, parameters[k].high - numbers[k]);
+      low = std::max(-longest * parameters[k].scale, parameters[k].low - numbers[k]);
+      high = std::min(longest * parameters[k].scale, parameters[k].high - numbers[k]);
     } else {
       high = (i - count) % 2 == 0 ? longest_brightness : longest_delay;
       low = -high;

@@ -11,7 +11,7 @@ namespace floe {
 
 struct IcePriors {
   double smoothness = 0.5;  // width of the difference between neighbours of a family
-  double amplitude = 1;     // width about the start, where a parameter has no prior of its own
+  double amplitude = 1;     // width of a family's members about their start
 };
 
 struct IceSolution {
@@ -21,7 +21,7 @@ struct IceSolution {
 };
 
 // Minimises |L^-1 (gap - slope step)|^2/2 + priors with Ceres, noise = L L'; no parameter moves further than
-// `longest` and none leaves its limits.
+// `longest` times its scale and none leaves its limits.
 IceSolution solve_ice(const ScoreSystem& system, const std::vector<IceParameter>& parameters,
                       const std::vector<double>& numbers, const IcePriors& priors, double longest);
 

@@ -1,0 +1,167 @@
+// floe fit-ice: an ice model from flasher data.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "apps/commands.h"
+#include "apps/common_options.h"
+#include "apps/ice_fit_output.h"
+#include "apps/option_values.h"
+#include "apps/progress_bar.h"
+#include "data/base/atomic_folder.h"
+#include "data/base/constants.h"
+#include "data/base/error.h"
+#include "data/event_files.h"
+#include "data/flasher_text.h"
+
+namespace floe {
+
+namespace {
+
+constexpr double beyond_flashers = 50;  // as far as the fit's layers go above and below them [m]
+
+struct FitIceCommand {
+  std::string data, folder, command;
+  ModelRequest model;
+  std::vector<std::string> fit{"absorption", "scattering"};
+  int layers = 10;
+  std::optional<std::string> depths;
+  IceFitOptions options;
+  SimulationSettings run;
+  OutputOptions output;
+};
+
+std::vector<Event> read_data(const std::string& file) {
+  if (file.ends_with(".h5")) return read_event_file(file).events;
+  std::vector<Event> events;  // texts of flasher runs have lines that say where each begins
+  for_each_flasher_run(file, [&](const Event& event) { events.push_back(event); });
+  return events;
+}
+
+DepthRange depth_range(const FitIceCommand& command, const Detector& detector, const FlasherData& data) {
+  DepthRange range{1e9, -1e9, command.layers};
+  for (const RunData& run : data.runs) {
+    const double z = detector.modules()[detector.index_of(run.run.module)].position.z();
+    range.top = std::min(range.top, origin_depth - z - beyond_flashers);
+    range.bottom = std::max(range.bottom, origin_depth - z + beyond_flashers);
+  }
+  if (!command.depths) return range;
+  const std::vector<std::string> parts = split_list(*command.depths);
+  if (parts.size() != 2)
+    throw UsageError(fmt::format("--depths: found \"{}\"; expected TOP,BOTTOM in metres", *command.depths));
+  range.top = parse_option_number("--depths", parts[0], {0, 5000});
+  range.bottom = parse_option_number("--depths", parts[1], {0, 5000});
+  if (range.bottom <= range.top)
+    throw UsageError(
+        fmt::format("--depths: found \"{}\"; expected the shallower depth first", *command.depths));
+  return range;
+}
+
+// An ice directory holds ice, and nothing else.
+void expect_ice_only(const IceParameter& parameter, const Model& base) {
+  const double step = (parameter.start > parameter.low ? -1e-3 : 1e-3) * parameter.scale;
+  const Model changed = with_parameters(base, {parameter}, {parameter.start + step});
+  if (changed.ice->hash() == base.ice->hash())
+    throw UsageError(
+        fmt::format("--fit {}: it does not belong to the ice, so that no ice directory could hold the result",
+                    parameter.name));
+}
+
+std::vector<IceParameter> parameters_of(const FitIceCommand& command, const Model& base,
+                                        const DepthRange& range) {
+  const std::pair<const char*, LayerFamily> families[] = {{"absorption", LayerFamily::absorption},
+                                                          {"scattering", LayerFamily::scattering},
+                                                          {"birefringence", LayerFamily::birefringence}};
+  std::vector<IceParameter> parameters;
+  for (const std::string& name : command.fit) {
+    const auto family = std::find_if(std::begin(families), std::end(families),
+                                     [&](const auto& f) { return name == f.first; });
+    if (family != std::end(families)) {
+      const auto layers = layer_parameters(family->second, range);
+      parameters.insert(parameters.end(), layers.begin(), layers.end());
+    } else {
+      parameters.push_back(effect_parameter(name, base));
+      expect_ice_only(parameters.back(), base);
+    }
+    const auto same = [&](const IceParameter& p) { return p.name == parameters.back().name; };
+    if (std::count_if(parameters.begin(), parameters.end(), same) > 1)
+      throw UsageError(fmt::format("--fit: {} is named twice", name));
+  }
+  return parameters;
+}
+
+void run_fit_ice(const FitIceCommand& command) {
+  IceFitOptions options = command.options;
+  options.seed = command.run.seed;
+  options.threads = command.run.threads;
+  options.oversize = command.run.oversize;
+  AtomicFolder folder(command.folder);
+  PlannedOutput json(command.output.json);
+  const std::vector<Event> events = read_data(command.data);
+  const Model base = load_model(command.model);
+  FlasherData data = flasher_data(*base.detector, events);
+  const auto parameters = parameters_of(command, base, depth_range(command, *base.detector, data));
+
+  IceFit fit;
+  {
+    ProgressBar bar(command.output.quiet);
+    fit = fit_ice(base, data, parameters, options, bar.callback());
+  }
+  const Model fitted = with_parameters(base, parameters, fit.numbers);
+  const std::vector<std::string> left_out = fit.left_out;
+  const IceFitReport report{command.model,   base,         fitted, std::move(fit), left_out,
+                            command.command, command.data, options};
+  write_ice_fit(report, folder.temporary());
+  json.write(json_text(ice_fit_json(report)));
+  json.commit();
+  folder.commit();
+  if (command.output.quiet) return;
+  fmt::print("{}The new ice model is {}/improved-ice, its stratigraphy {}/stratigraphy.svg\n",
+             ice_fit_table(report), command.folder, command.folder);
+}
+
+}  // namespace
+
+void add_fit_ice(CLI::App& floe, const std::string& command_line) {
+  CLI::App& app = *floe.add_subcommand("fit-ice", "Fit an ice model to flasher data");
+  const auto command = std::make_shared<FitIceCommand>();
+  command->command = command_line;
+  command->run.oversize = command->options.oversize;
+  app.add_option("data", command->data,
+                 "Flasher runs: .h5, or text with FLASHER lines (.hits, .txt, .dat, also .gz)")
+      ->type_name("DATA")
+      ->required();
+  app.add_option("-o,--output", command->folder, "New folder for the result")->type_name("DIR")->required();
+  add_model_options(app, command->model);
+  app.add_option_function<std::string>(
+         "--fit", [command = command.get()](const std::string& list) { command->fit = split_list(list); },
+         "What to fit: absorption, scattering, birefringence (a factor for each layer), and parameters of "
+         "effects "
+         "of the ice, as floe effects lists them")
+      ->type_name("NAME[,NAME]")
+      ->default_str("absorption,scattering");
+  add_integer(app, "--layers", 1, 1000, "Layers of equal thickness that the depths are divided into",
+              [command = command.get()](std::int64_t layers) { command->layers = static_cast<int>(layers); })
+      ->default_str("10");
+  app.add_option("--depths", command->depths,
+                 "Range of the layers [m]; ice beyond it follows the outermost ones. Default: 50 m beyond "
+                 "the flashers")
+      ->type_name("TOP,BOTTOM");
+  add_number(app, "--light", "RATIO", {0.1, 1000}, "Simulated light, in units of the data's",
+             command->options.light);
+  add_number(app, "--model-error", "SIGMA", {0, 1},
+             "Relative error of the simulation that the fit allows for", command->options.model_error);
+  add_number(app, "--smoothness", "SIGMA", {0.001, 100},
+             "Prior: width of ln(ratio) between neighbouring layers", command->options.smoothness);
+  add_simulation_options(app, command->run);
+  add_output_options(app, command->output);
+  app.footer(
+      "Examples:\n"
+      "  floe fit-ice runs.h5 --ice my-ice -o fitted\n"
+      "  floe fit-ice runs.h5 --ice my-ice --fit birefringence,absorption,scattering --layers 10 -o fitted\n"
+      "  floe fit-ice runs.hits --ice south-pole --fit absorption-anisotropy.k1,flow-azimuth -o fitted");
+  app.callback([command] { run_fit_ice(*command); });
+}
+
+}  // namespace floe

@@ -1,0 +1,30 @@
+// What floe fit-ice leaves behind: a folder with the new ice model, the fit's numbers and its stratigraphy.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "apps/planned_output.h"
+#include "propagation/model.h"
+#include "reco/ice_fit/ice_fit.h"
+
+namespace floe {
+
+// Everything there is to tell about a fit.
+struct IceFitReport {
+  ModelRequest base_request;
+  Model base, fitted;
+  IceFit fit;
+  std::vector<std::string> left_out;  // of the data, a sentence each
+  std::string command, data;
+  IceFitOptions options;
+};
+
+std::string ice_fit_table(const IceFitReport& report);  // for people
+Json ice_fit_json(const IceFitReport& report);          // result.json
+// result.json, stratigraphy.csv, stratigraphy.svg and improved-ice/ with its CHANGES.txt. Files of the base
+// directory that floe does not read are passed on. Throws OutputError.
+void write_ice_fit(const IceFitReport& report, const std::filesystem::path& folder);
+
+}  // namespace floe
