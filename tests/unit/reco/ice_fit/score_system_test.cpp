@@ -1,0 +1,235 @@
+#include "reco/ice_fit/score_system.h"
+
+#include <gtest/gtest.h>
+#include <Eigen/LU>
+
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "reco/ice_fit/ice_solution.h"
+
+namespace floe {
+namespace {
+
+// Light in closed form: counts of the data in bin b are expected to be base(b) (1 + sum_p theta_p slope(b,
+// p)), brightness and time zero apart.
+struct ClosedLight {
+  Eigen::VectorXd base;    // counts of the data at theta = 0
+  Eigen::MatrixXd slopes;  // of ln mu at theta = 0, the ice's columns only
+  Eigen::VectorXd delay;   // of ln mu [1/ns]
+  double scale;            // counts of the data for one simulated hit of a fold
+};
+
+ClosedLight some_light(int bins, double counts, double scale) {
+  ClosedLight light{Eigen::VectorXd(bins), Eigen::MatrixXd(bins, 3), Eigen::VectorXd(bins), scale};
+  for (int b = 0; b < bins; ++b) {
+    const double x = static_cast<double>(b) / (bins - 1);
+    light.base(b) = counts * (0.5 + std::exp(-3 * x) + 0.3 * (b % 3));
+    light.slopes.row(b) << -0.5 - x, std::sin(5 * x), b % 4 == 1 ? 1.0 : 0.1;
+    light.delay(b) = 0.02 * std::cos(9 * x + b % 3);
+  }
+  return light;
+}
+
+// What a simulation of so much light that nothing is left of chance gives.
+RunLight certain(const ClosedLight& light) {
+  RunLight run;
+  for (LightFold& fold : run.folds) {
+    fold.counts = light.base / light.scale;
+    fold.slopes = fold.counts.asDiagonal() * light.slopes;
+    fold.slope_squares = fold.counts.asDiagonal() * light.slopes.cwiseAbs2();
+    fold.delay = fold.counts.cwiseProduct(light.delay);
+  }
+  return run;
+}
+
+Eigen::MatrixXd all_slopes(const ClosedLight& light) {
+  Eigen::MatrixXd slopes(light.base.size(), 5);
+  slopes << light.slopes, Eigen::VectorXd::Ones(light.base.size()), light.delay;
+  return slopes;
+}
+
+TEST(ScoreSystem, IsTheFisherInformationWhereNothingIsNoisy) {
+  const ClosedLight light = some_light(24, 50, 1e-9);
+  RunCounts counts;
+  counts.data = light.base + Eigen::VectorXd::LinSpaced(24, -5, 8);
+  counts.scale = light.scale;
+  ScoreSystem system(5);
+  add_run(certain(light), counts, 3, system);
+  const Eigen::MatrixXd slopes = all_slopes(light);
+  const Eigen::MatrixXd information = slopes.transpose() * light.base.asDiagonal() * slopes;
+  EXPECT_TRUE(system.slope.isApprox(information, 1e-6));
+  EXPECT_TRUE(system.noise.isApprox(information, 1e-6));
+  EXPECT_TRUE(system.gap.isApprox(slopes.transpose() * (counts.data - light.base), 1e-6));
+}
+
+// Two folds of L times the light of the data each blur mu by mu/(2 L): the information of counts whose
+// variance is mu (1 + 1/(2 L)).
+TEST(ScoreSystem, SimulatedNoiseTakesInformationAway) {
+  const ClosedLight light = some_light(24, 50, 0.4);
+  RunCounts counts;
+  counts.data = light.base;
+  counts.scale = light.scale;
+  ScoreSystem system(5);
+  add_run(certain(light), counts, 3, system);
+  const Eigen::MatrixXd slopes = all_slopes(light);
+  const Eigen::MatrixXd information = slopes.transpose() * (light.base / 1.2).asDiagonal() * slopes;
+  EXPECT_TRUE(system.slope.isApprox(information, 1e-9));
+  EXPECT_TRUE(system.noise.isApprox(information, 1e-9));
+  EXPECT_LT(system.gap.norm(), 1e-9);
+}
+
+TEST(ScoreSystem, ModelErrorTakesInformationAway) {
+  const ClosedLight light = some_light(24, 50, 1e-9);
+  RunCounts counts;
+  counts.data = light.base;
+  counts.scale = light.scale;
+  counts.model_error = 0.1;
+  ScoreSystem system(5);
+  add_run(certain(light), counts, 3, system);
+  const Eigen::ArrayXd known = light.base.array() / (1 + 0.01 * light.base.array());
+  const Eigen::MatrixXd slopes = all_slopes(light);
+  const Eigen::MatrixXd information = slopes.transpose() * known.matrix().asDiagonal() * slopes;
+  EXPECT_TRUE(system.slope.isApprox(information, 1e-6));
+  EXPECT_TRUE(system.noise.isApprox(information, 1e-6));
+}
+
+TEST(ScoreSystem, RunsShareTheIceAndHaveTheirOwnBrightness) {
+  const ClosedLight light = some_light(24, 50, 0.1);
+  RunCounts counts;
+  counts.data = light.base;
+  counts.scale = light.scale;
+  ScoreSystem one(5), both(7);
+  add_run(certain(light), counts, 3, one);
+  add_run(certain(light), counts, 3, both);
+  add_run(certain(light), counts, 5, both);
+  EXPECT_TRUE(both.slope.topLeftCorner(3, 3).isApprox(2 * one.slope.topLeftCorner(3, 3)));
+  for (const Eigen::Index run : {3, 5}) {
+    EXPECT_TRUE(both.slope.block(run, run, 2, 2).isApprox(one.slope.block(3, 3, 2, 2)));
+    EXPECT_TRUE(both.slope.block(0, run, 3, 2).isApprox(one.slope.block(0, 3, 3, 2)));
+    EXPECT_TRUE(both.noise.block(run, 0, 2, 3).isApprox(one.noise.block(3, 0, 2, 3)));
+  }
+  EXPECT_EQ(both.slope.block(3, 5, 2, 2).norm(), 0);
+  EXPECT_EQ(both.noise.block(5, 3, 2, 2).norm(), 0);
+}
+
+// Slopes that are noise weigh nothing: without Stein's argument the noise would count as information.
+TEST(ScoreSystem, SlopesOfNoiseWeighLittle) {
+  const ClosedLight light = some_light(24, 50, 1);
+  std::mt19937 random(4);
+  std::normal_distribution<double> normal;
+  double taken = 0;
+  constexpr int trials = 100;
+  for (int trial = 0; trial < trials; ++trial) {
+    RunLight run = certain(light);
+    for (LightFold& fold : run.folds)
+      for (int b = 0; b < 24; ++b) {
+        fold.slopes(b, 0) = 20 * std::sqrt(fold.counts(b)) * normal(random);
+        fold.slope_squares(b, 0) = 400 * fold.counts(b);
+      }
+    RunCounts counts;
+    counts.data = light.base;
+    ScoreSystem system(5);
+    add_run(run, counts, 3, system);
+    taken += system.noise(0, 0) / trials;
+  }
+  // Taken at face value, noise of variance 400/counts is worth 400 in each of 24 bins. Left of it is the
+  // share power/(power + noise), squared: the power of pure noise is 0.2 of it at one sigma, so 0.02 or so.
+  EXPECT_LT(taken, 0.06 * 24 * 400);
+}
+
+struct Noise {
+  double slopes;  // scatter of the score from hit to hit
+  int seen;       // how often each photon is seen
+  double away;    // 1: the step to the truth is some errors long; 0: it is the last one
+};
+void PrintTo(const Noise& noise, std::ostream* out) {
+  *out << "scatter " << noise.slopes << ", seen " << noise.seen << ", away " << noise.away;
+}
+
+class SolvedParameters : public ::testing::TestWithParam<Noise> {};
+
+// Draws of `count` hits from photons that are seen several times each.
+Eigen::VectorXd draw(const Eigen::VectorXd& mean, int seen, std::mt19937_64& random) {
+  Eigen::VectorXd counts(mean.size());
+  for (Eigen::Index b = 0; b < mean.size(); ++b)
+    counts(b) = seen * static_cast<double>(std::poisson_distribution<long>(mean(b) / seen)(random));
+  return counts;
+}
+
+RunLight simulated(const ClosedLight& light, const Noise& noise, std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  RunLight run;
+  for (LightFold& fold : run.folds) {
+    fold.counts = draw(light.base / light.scale, noise.seen, random);
+    fold.slopes = fold.counts.asDiagonal() * light.slopes;
+    for (Eigen::Index b = 0; b < fold.counts.size(); ++b)
+      for (Eigen::Index p = 0; p < 3; ++p)
+        fold.slopes(b, p) += noise.slopes * std::sqrt(fold.counts(b)) * normal(random);
+    fold.slope_squares =
+        fold.counts.asDiagonal() * (light.slopes.cwiseAbs2().array() + noise.slopes * noise.slopes).matrix();
+    fold.delay = fold.counts.cwiseProduct(light.delay);
+  }
+  return run;
+}
+
+std::vector<IceParameter> free_parameters() {
+  std::vector<IceParameter> parameters(3);
+  for (IceParameter& parameter : parameters) parameter.low = -50, parameter.high = 50;
+  return parameters;
+}
+
+// Two runs of some ten thousand counts, simulated with five times the light: the step leads to the truth,
+// with the errors that it says. Close to it noise of the slopes, however large, does neither bias the step
+// nor widen it.
+TEST_P(SolvedParameters, AreUnbiasedWithTheScatterOfTheirCovariance) {
+  const Noise noise = GetParam();
+  const ClosedLight light = some_light(30, 600, 0.4);
+  const Eigen::Vector3d truth = noise.away * Eigen::Vector3d(0.08, -0.06, 0.1);
+  const Eigen::VectorXd mean =
+      light.base.cwiseProduct((Eigen::VectorXd::Ones(light.base.size()) + light.slopes * truth).eval());
+  std::mt19937_64 random(17);
+  constexpr int trials = 600;
+  Eigen::Vector3d pulls = Eigen::Vector3d::Zero(), squares = Eigen::Vector3d::Zero();
+  double chi_square = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    ScoreSystem system(7);
+    for (const int nuisance : {3, 5}) {
+      RunCounts counts;
+      counts.data = draw(mean, noise.seen, random);
+      counts.scale = light.scale;
+      counts.dispersion = counts.data_dispersion = noise.seen;
+      add_run(simulated(light, noise, random), counts, nuisance, system);
+    }
+    const IceSolution solution = solve_ice(system, free_parameters(), {0, 0, 0}, {}, 50);
+    const Eigen::Vector3d gap = solution.step.head(3) - truth;
+    for (int p = 0; p < 3; ++p) {
+      const double pull = gap(p) / std::sqrt(solution.covariance(p, p));
+      pulls(p) += pull / trials;
+      squares(p) += pull * pull / trials;
+      EXPECT_NEAR(solution.light_errors[static_cast<std::size_t>(p)] / std::sqrt(solution.covariance(p, p)),
+                  1, 1e-3);
+    }
+    chi_square += gap.dot(solution.covariance.inverse() * gap) / (3 * trials);
+  }
+  // Means of pulls have an error of 1/sqrt(trials) = 0.04, so that a bias of 0.16 sigma is seen; squared
+  // widths one of sqrt(2/trials) = 0.06, so that errors wrong by an eighth are. On a long step what the
+  // slopes do not know adds some per cent that the covariance does not count.
+  for (int p = 0; p < 3; ++p) {
+    EXPECT_NEAR(pulls(p), 0, 4 / std::sqrt(trials)) << p;
+    EXPECT_NEAR(squares(p), 1, 4 * std::sqrt(2.0 / trials) + 0.03) << p;
+  }
+  EXPECT_NEAR(chi_square, 1, 4 * std::sqrt(2.0 / (3 * trials)) + 0.03);
+}
+
+INSTANTIATE_TEST_SUITE_P(Noises, SolvedParameters,
+                         ::testing::Values(Noise{0, 1, 1}, Noise{2, 1, 1}, Noise{2, 3, 1}, Noise{0, 1, 0},
+                                           Noise{6, 1, 0}, Noise{9, 1, 0}, Noise{4, 3, 0}),
+                         [](const auto& noise) {
+                           return "scatter" + std::to_string(static_cast<int>(noise.param.slopes)) + "_seen" +
+                                  std::to_string(noise.param.seen) + (noise.param.away > 0 ? "_away" : "");
+                         });
+
+}  // namespace
+}  // namespace floe
