@@ -1,5 +1,7 @@
 #include "reco/ice_fit/score_map.h"
 
+#include <algorithm>
+
 #include "propagation/ice/ice_hash.h"
 
 namespace floe {
@@ -22,6 +24,45 @@ IceTables without_weightable(const IceTables& changed, const IceTables& base) {
   return tables;
 }
 
+bool same(const AngularAcceptance& a, const AngularAcceptance& b) {
+  return a.is_surface() == b.is_surface() && a.maximum() == b.maximum() && a.cut() == b.cut() &&
+         a.coefficients() == b.coefficients();
+}
+bool same(const WavelengthSpectrum& a, const WavelengthSpectrum& b) {
+  return std::ranges::equal(a.points(), b.points(), [](const auto& p, const auto& q) {
+    return p.cumulative == q.cumulative && p.wavelength == q.wavelength;
+  });
+}
+bool same(const std::optional<HighQeRatio>& a, const std::optional<HighQeRatio>& b) {
+  if (!a || !b) return !a && !b;
+  return std::ranges::equal(a->points(), b->points(), [](const auto& p, const auto& q) {
+    return p.wavelength == q.wavelength && p.ratio == q.ratio;
+  });
+}
+
+// Modules, how they accept light, and sources: nothing that paths through the ice tell of.
+bool same_surroundings(const Model& a, const Model& b) {
+  return a.detector->hash() == b.detector->hash() && a.sources == b.sources &&
+         a.acceptance.overall_efficiency == b.acceptance.overall_efficiency &&
+         same(a.acceptance.angular, b.acceptance.angular) &&
+         same(a.acceptance.spectrum, b.acceptance.spectrum) &&
+         same(a.acceptance.high_qe, b.acceptance.high_qe);
+}
+
+// Steps without width have no density: there more diffusion or deflection is not a matter of weights.
+bool weightable_birefringence(const IceModel& was, const IceModel& is) {
+  const auto& numbers = was.birefringence();
+  // Strengths that turn nothing only say how much is taken out of scattering.
+  if (!numbers || (!numbers->diffusion && !numbers->deflection)) return true;
+  for (std::size_t i = 0; i < was.layers().size(); ++i) {
+    const IceLayer &a = was.layers()[i], &b = is.layers()[i];
+    const bool same =
+        a.diffusion_strength == b.diffusion_strength && a.deflection_strength == b.deflection_strength;
+    if (!same && !(numbers->diffusion && a.diffusion_strength > 0)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 ScoreMap::ScoreMap(const Model& model, double wavelength, int parameters)
@@ -30,6 +71,7 @@ ScoreMap::ScoreMap(const Model& model, double wavelength, int parameters)
 bool ScoreMap::add(int parameter, const Model& changed, double step) {
   const IceModel &was = *model_.ice, &is = *changed.ice;
   if (ice_hash(without_weightable(is.tables(), was.tables())) != was.hash()) return false;
+  if (!same_surroundings(model_, changed) || !weightable_birefringence(was, is)) return false;
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const int layer = static_cast<int>(i);
     const IceLayer &a = was.layers()[i], &b = is.layers()[i];
