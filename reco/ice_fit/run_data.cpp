@@ -67,17 +67,15 @@ FlasherData flasher_data(const Detector& detector, std::span<const Event> events
     else
       data.left_out.push_back(fmt::format("event {}: not a flasher run", event.id));
   }
+  for (std::size_t i = data.runs.size(); i-- > 0;)
+    if (!(data.runs[i].charge > 0)) leave_out_run(data, i, "no light on any module");
   const double usual = usual_wavelength(data.runs);
-  for (std::size_t i = data.runs.size(); i-- > 0;) {
-    const RunData& run = data.runs[i];
-    if (!(run.charge > 0))
-      leave_out_run(data, i, "no light on any module");
-    else if (run.run.wavelength != usual)
+  for (std::size_t i = data.runs.size(); i-- > 0;)
+    if (const double wavelength = data.runs[i].run.wavelength; wavelength != usual)
       leave_out_run(data, i,
                     fmt::format("flashes at {:g} nm, most others at {:g} nm; fit them apart, since the ice's "
                                 "numbers are fitted for one colour",
-                                run.run.wavelength, usual));
-  }
+                                wavelength, usual));
   if (data.runs.empty()) throw NoResult("not enough light: no flasher run with light on any module");
   return data;
 }
