@@ -11,7 +11,7 @@ std::vector<double> quantiles(std::vector<double>& times, int bins) {
   std::vector<double> edges;
   for (int i = 1; i < bins; ++i) {
     const double edge = times[times.size() * static_cast<std::size_t>(i) / static_cast<std::size_t>(bins)];
-    if (edges.empty() || edge > edges.back()) edges.push_back(edge);
+    if (edge > (edges.empty() ? times.front() : edges.back())) edges.push_back(edge);
   }
   return edges;
 }
