@@ -1,9 +1,7 @@
 #include "reco/ice_fit/ice_solution.h"
 
-#include <ceres/ceres.h>
-
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,27 +14,6 @@ constexpr double longest_delay = 20;        // of a round [ns]
 constexpr double longest_brightness = 0.7;  // [logarithm]
 // Information that is as good as none: the score of a parameter that no light depends on.
 constexpr double no_information = 1e-6;
-
-// b - A x
-class LinearCost : public ceres::CostFunction {
- public:
-  LinearCost(Eigen::MatrixXd A, Eigen::VectorXd b) : A_(std::move(A)), b_(std::move(b)) {
-    set_num_residuals(static_cast<int>(A_.rows()));
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(A_.cols()));
-  }
-  bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
-    const Eigen::Map<const Eigen::VectorXd> at(x[0], A_.cols());
-    Eigen::Map<Eigen::VectorXd>(residuals, A_.rows()) = b_ - A_ * at;
-    if (jacobians && jacobians[0])
-      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-          jacobians[0], A_.rows(), A_.cols()) = -A_;
-    return true;
-  }
-
- private:
-  Eigen::MatrixXd A_;
-  Eigen::VectorXd b_;
-};
 
 // Rows of a prior: each says that a combination of the numbers is 0 within 1.
 struct PriorRows {
@@ -69,6 +46,54 @@ PriorRows prior_rows(const std::vector<IceParameter>& parameters, const std::vec
   return prior;
 }
 
+// Minimises |b - A x|^2 over the entries of x that are not held.
+Eigen::VectorXd best_of_free(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, const std::vector<int>& held,
+                             Eigen::VectorXd x) {
+  std::vector<int> free;
+  for (int i = 0; i < x.size(); ++i)
+    if (std::ranges::find(held, i) == held.end()) free.push_back(i);
+  const Eigen::VectorXd fixed = A(Eigen::all, held) * x(held);
+  x(free) = A(Eigen::all, free).colPivHouseholderQr().solve(b - fixed);
+  return x;
+}
+
+// Minimises |b - A x|^2 between limits, low <= 0 <= high, from x = 0 on, by holding what meets its limit and
+// letting go of what is drawn back inside (Stark and Parker, Computational Statistics 10, 1995). Ceres' own
+// limits will not do: its projected steps end where several parameters at limits are correlated, tens of
+// units above the minimum.
+Eigen::VectorXd best_within(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, const Eigen::VectorXd& low,
+                            const Eigen::VectorXd& high) {
+  constexpr double hardly_drawn = 1e-6;  // in the units of one standard deviation
+  const Eigen::Index size = A.cols();
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(size);
+  const Eigen::VectorXd widths = A.colwise().norm().transpose().cwiseMax(1e-12);
+  std::vector<int> held;
+  for (Eigen::Index round = 0; round < 20 * size; ++round) {
+    const Eigen::VectorXd best = best_of_free(A, b, held, x);
+    // As far as the first limit on the way.
+    double share = 1;
+    int met = -1;
+    for (int i = 0; i < size; ++i) {
+      const double limit = best(i) > x(i) ? high(i) : low(i);
+      const double way = best(i) - x(i), room = limit - x(i);
+      if (std::abs(way) > std::abs(room) && room / way < share) share = room / way, met = i;
+    }
+    x += share * (best - x);
+    if (met >= 0) {
+      x(met) = best(met) > x(met) ? high(met) : low(met);
+      held.push_back(met);
+      continue;
+    }
+    // What is drawn inside the most is let go.
+    const Eigen::VectorXd pull = (A.transpose() * (b - A * x)).cwiseQuotient(widths);
+    const auto drawn = [&](int i) { return x(i) == high(i) ? -pull(i) : pull(i); };
+    const auto most = std::ranges::max_element(held, {}, drawn);
+    if (most == held.end() || drawn(*most) < hardly_drawn) break;
+    held.erase(most);
+  }
+  return x;
+}
+
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& information) {
   return information.ldlt().solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
 }
@@ -86,33 +111,24 @@ IceSolution solve_ice(const ScoreSystem& system, const std::vector<IceParameter>
   const Eigen::VectorXd b = root.matrixL().solve(system.gap);
   const PriorRows prior = prior_rows(parameters, numbers, priors, size);
 
-  std::vector<double> x(static_cast<std::size_t>(size), 0.0);
-  ceres::Problem problem;
-  problem.AddResidualBlock(new LinearCost(A, b), nullptr, x.data());
-  if (prior.b.size() > 0) problem.AddResidualBlock(new LinearCost(prior.A, prior.b), nullptr, x.data());
+  Eigen::VectorXd low(size), high(size);
   for (Eigen::Index i = 0; i < size; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    double low = 0, high = 0;
     if (i < count) {
-      low = std::max(-longest * parameters[k].scale, parameters[k].low - numbers[k]);
-      high = std::min(longest * parameters[k].scale, parameters[k].high - numbers[k]);
+      low(i) = std::min(0.0, std::max(-longest * parameters[k].scale, parameters[k].low - numbers[k]));
+      high(i) = std::max(0.0, std::min(longest * parameters[k].scale, parameters[k].high - numbers[k]));
     } else {
-      high = (i - count) % 2 == 0 ? longest_brightness : longest_delay;
-      low = -high;
+      high(i) = (i - count) % 2 == 0 ? longest_brightness : longest_delay;
+      low(i) = -high(i);
     }
-    problem.SetParameterLowerBound(x.data(), static_cast<int>(i), std::min(low, 0.0));
-    problem.SetParameterUpperBound(x.data(), static_cast<int>(i), std::max(high, 0.0));
   }
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = 100;
-  options.function_tolerance = 1e-10;
-  options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
+  Eigen::MatrixXd all(A.rows() + prior.A.rows(), size);
+  Eigen::VectorXd wanted(all.rows());
+  all << A, prior.A;
+  wanted << b, prior.b;
 
   IceSolution solution;
-  solution.step = Eigen::Map<Eigen::VectorXd>(x.data(), size);
+  solution.step = best_within(all, wanted, low, high);
   const Eigen::MatrixXd light = A.transpose() * A;
   solution.covariance = inverse(light + prior.A.transpose() * prior.A).topLeftCorner(count, count);
   Eigen::MatrixXd weak = light;
