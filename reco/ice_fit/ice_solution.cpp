@@ -14,6 +14,9 @@ constexpr double longest_delay = 20;        // of a round [ns]
 constexpr double longest_brightness = 0.7;  // [logarithm]
 // Information that is as good as none: the score of a parameter that no light depends on.
 constexpr double no_information = 1e-6;
+// A direction without any information, shared by as many parameters as there may be, leaves each a variance
+// of more than `unknown`.
+constexpr double hardly_information = 1e-9, unknown = 1e6;
 
 // Rows of a prior: each says that a combination of the numbers is 0 within 1.
 struct PriorRows {
@@ -132,10 +135,10 @@ IceSolution solve_ice(const ScoreSystem& system, const std::vector<IceParameter>
   const Eigen::MatrixXd light = A.transpose() * A;
   solution.covariance = inverse(light + prior.A.transpose() * prior.A).topLeftCorner(count, count);
   Eigen::MatrixXd weak = light;
-  weak.diagonal().array() += no_information;
+  weak.diagonal().array() += hardly_information;
   const Eigen::VectorXd variance = inverse(weak).diagonal();
   for (Eigen::Index i = 0; i < count; ++i)
-    solution.light_errors.push_back(variance(i) > 0 && variance(i) < 0.1 / no_information
+    solution.light_errors.push_back(variance(i) > 0 && variance(i) < unknown
                                         ? std::sqrt(variance(i))
                                         : std::numeric_limits<double>::infinity());
   return solution;
