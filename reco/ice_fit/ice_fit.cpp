@@ -19,7 +19,9 @@ namespace {
 constexpr double scout_share = 0.1;    // of a run's light: where to put the bins
 constexpr double first_photons = 3e8;  // N of the first look at a run
 constexpr double longest_step = 0.7;   // of a round, in the logarithm
-constexpr double settled = 0.5;        // a step so small, in its errors, is the last
+// Steps so small, in their errors, are the last: root mean square and largest. New simulations in every round
+// keep them from getting much smaller.
+constexpr double settled = 0.8, settled_most = 2.5;
 // Differences, in the parameter's scale: for weights, which are exact, and between simulations.
 constexpr double weight_step = 1e-3, pair_step = 0.5;
 constexpr double saturation = 500;  // photoelectrons of a flash
@@ -181,11 +183,13 @@ class Fit {
     }
     const IceSolution solution = solve_ice(system, fit_.parameters, fit_.numbers,
                                            {options_.smoothness, options_.amplitude}, longest_step);
-    double furthest = 0;
+    double furthest = 0, squares = 0;
     for (std::size_t p = 0; p < count(); ++p) {
       const auto i = static_cast<Eigen::Index>(p);
       fit_.numbers[p] += solution.step(i);
-      furthest = std::max(furthest, std::abs(solution.step(i)) / std::sqrt(solution.covariance(i, i)));
+      const double pull = std::abs(solution.step(i)) / std::sqrt(solution.covariance(i, i));
+      furthest = std::max(furthest, pull);
+      squares += pull * pull;
     }
     for (std::size_t r = 0; r < runs; ++r) {
       const auto i = static_cast<Eigen::Index>(count() + 2 * r);
@@ -194,7 +198,8 @@ class Fit {
     }
     fit_.covariance = solution.covariance;
     fit_.light_errors = solution.light_errors;
-    fit_.converged = furthest < settled;
+    const double mean = std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, count())));
+    fit_.converged = mean < settled && furthest < settled_most;
   }
 
   void add_run_to(const Model& model, std::size_t r, ScoreSystem& system) {

@@ -1,7 +1,8 @@
 #include "reco/ice_fit/ice_solution.h"
 
+#include <ceres/ceres.h>
+
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -30,7 +31,7 @@ PriorRows prior_rows(const std::vector<IceParameter>& parameters, const std::vec
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const IceParameter& p = parameters[i];
     const auto column = static_cast<Eigen::Index>(i);
-    const double width = p.family.empty() ? 0 : priors.amplitude;
+    const double width = p.prior > 0 ? p.prior : p.family.empty() ? 0 : priors.amplitude;
     if (width > 0) {
       rows.emplace_back(Eigen::VectorXd::Unit(size, column) / width);
       values.push_back((p.start - numbers[i]) / width);
@@ -49,14 +50,43 @@ PriorRows prior_rows(const std::vector<IceParameter>& parameters, const std::vec
   return prior;
 }
 
+// b - A x
+class LinearCost : public ceres::CostFunction {
+ public:
+  LinearCost(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) : A_(A), b_(b) {
+    set_num_residuals(static_cast<int>(A.rows()));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(A.cols()));
+  }
+  bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    const Eigen::Map<const Eigen::VectorXd> at(x[0], A_.cols());
+    Eigen::Map<Eigen::VectorXd>(residuals, A_.rows()) = b_ - A_ * at;
+    if (jacobians && jacobians[0]) Eigen::Map<RowMajor>(jacobians[0], A_.rows(), A_.cols()) = -A_;
+    return true;
+  }
+
+ private:
+  const Eigen::MatrixXd& A_;
+  const Eigen::VectorXd& b_;
+};
+
 // Minimises |b - A x|^2 over the entries of x that are not held.
 Eigen::VectorXd best_of_free(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, const std::vector<int>& held,
                              Eigen::VectorXd x) {
-  std::vector<int> free;
-  for (int i = 0; i < x.size(); ++i)
-    if (std::ranges::find(held, i) == held.end()) free.push_back(i);
-  const Eigen::VectorXd fixed = A(Eigen::all, held) * x(held);
-  x(free) = A(Eigen::all, free).colPivHouseholderQr().solve(b - fixed);
+  if (held.size() == static_cast<std::size_t>(x.size())) return x;
+  ceres::Problem problem;
+  problem.AddResidualBlock(new LinearCost(A, b), nullptr, x.data());
+  if (!held.empty())
+    problem.SetManifold(x.data(), new ceres::SubsetManifold(static_cast<int>(x.size()), held));
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  // It is linear: nothing holds the step back but directions without any light.
+  options.initial_trust_region_radius = 1e12;
+  options.max_trust_region_radius = 1e14;
+  options.function_tolerance = options.parameter_tolerance = options.gradient_tolerance = 1e-13;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
   return x;
 }
 

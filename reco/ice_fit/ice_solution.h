@@ -11,7 +11,7 @@ namespace floe {
 
 struct IcePriors {
   double smoothness = 0.5;  // width of the difference between neighbours of a family
-  double amplitude = 1;     // width of a family's members about their start
+  double amplitude = 1;     // width of a family's members about their start, unless they have their own
 };
 
 struct IceSolution {

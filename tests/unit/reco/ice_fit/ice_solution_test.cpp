@@ -15,6 +15,7 @@ namespace {
 std::vector<IceParameter> family(const std::string& name, int count) {
   std::vector<IceParameter> parameters(static_cast<std::size_t>(count));
   for (IceParameter& parameter : parameters) {
+    parameter.scale = 1;
     parameter.family = name;
     parameter.low = -100, parameter.high = 100;
   }

@@ -176,7 +176,7 @@ RunLight simulated(const ClosedLight& light, const Noise& noise, std::mt19937_64
 
 std::vector<IceParameter> free_parameters() {
   std::vector<IceParameter> parameters(3);
-  for (IceParameter& parameter : parameters) parameter.low = -50, parameter.high = 50;
+  for (IceParameter& parameter : parameters) parameter.low = -50, parameter.high = 50, parameter.scale = 1;
   return parameters;
 }
 

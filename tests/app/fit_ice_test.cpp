@@ -1,0 +1,124 @@
+// floe fit-ice on the command line: what it leaves behind, what it says of bad data, what it refuses.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/floe_runner.h"
+#include "tests/unit/data/temporary_folder.h"
+
+namespace floe::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+class FitIce : public ::testing::Test {
+ protected:
+  Outcome floe(const std::string& arguments) const { return run_floe(folder_.path(), arguments); }
+  Outcome floe_well(const std::string& arguments) const {
+    const Outcome outcome = floe(arguments);
+    EXPECT_EQ(outcome.code, 0) << "floe " << arguments << "\n" << outcome.err;
+    return outcome;
+  }
+  std::string text_of(const std::string& file) const { return bytes_of(folder_.path() / file); }
+  void write(const std::string& file, const std::string& text) const {
+    write_bytes(folder_.path() / file, text);
+  }
+  Json result() const { return Json::parse(text_of("fitted/result.json")); }
+  // Two runs, with the options of floe simulate; as text, so that they are easy to spoil.
+  void simulate(const std::string& options) const {
+    write("runs.toml", "[defaults]\nphotons = 3e8\n[[run]]\nmodule = [36, 20]\n[[run]]\nmodule = [45, 40]\n");
+    floe_well("simulate --flashers runs.toml --oversize 16 --seed 5 --quiet -o runs.h5 " + options);
+    floe_well("export runs.h5 -o runs.hits");
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(FitIce, FindsMoreAbsorptionAndLeavesAnIceModelThatIsReadAgain) {
+  simulate("--with absorption-scale.factor=1.3");
+  const Outcome outcome = floe_well("fit-ice runs.h5 --fit absorption-scale --light 2 -o fitted");
+  EXPECT_NE(outcome.out.find("absorption-scale.factor"), std::string::npos) << outcome.out;
+  const Json found = result();
+  const Json& parameter = found["parameters"][0];
+  const double value = parameter["value"], error = parameter["error"];
+  EXPECT_GT(error, 0.003);  // about 3000 hits
+  EXPECT_LT(error, 0.08);
+  EXPECT_NEAR(value, 1.3, 4 * error);
+  EXPECT_EQ(found["runs"].size(), 2u);
+  for (const Json& run : found["runs"])
+    EXPECT_NEAR(run["brightness_photons"].get<double>() / (0.675 * 3e8), 1, 0.25);
+
+  EXPECT_EQ(
+      files_in(folder_.path() / "fitted"),
+      (std::set<std::string>{"result.json", "stratigraphy.csv", "stratigraphy.svg", "improved-ice",
+                             "improved-ice/CHANGES.txt", "improved-ice/cfg.txt", "improved-ice/icemodel.bbl",
+                             "improved-ice/icemodel.dat", "improved-ice/icemodel.par"}));
+  // The directory holds the ice that was fitted.
+  floe_well("info --ice fitted/improved-ice --detector ic86 --json info.json --quiet");
+  const Json info = Json::parse(text_of("info.json"));
+  EXPECT_EQ(info["ice"]["hash"], found["fitted_model"]["ice"]["hash"]);
+  EXPECT_NE(text_of("fitted/improved-ice/CHANGES.txt").find("absorption-scale.factor"), std::string::npos);
+}
+
+TEST_F(FitIce, TheResultDoesNotDependOnThreads) {
+  simulate("");
+  const std::string fit = "fit-ice runs.h5 --fit absorption,scattering --layers 3 --light 0.5 --quiet ";
+  floe_well(fit + "--threads 1 -o one");
+  floe_well(fit + "--threads 3 -o fitted");
+  const Json one = Json::parse(text_of("one/result.json"));
+  EXPECT_EQ(one["parameters"], result()["parameters"]);
+  EXPECT_EQ(one["parameters"].size(), 6u);
+}
+
+TEST_F(FitIce, LeavesOutWhatCannotBeRightAndFitsTheRest) {
+  simulate("");
+  const std::string good = text_of("runs.hits");
+  // A receiver next to a flasher that saw nothing, in any run.
+  std::string spoiled;
+  std::istringstream lines(good);
+  for (std::string line; std::getline(lines, line);)
+    if (line.find("HIT 36 21 ") == line.npos) spoiled += line + "\n";
+  // A run without light, one of another colour, and a measured one with a receiver that is far too bright.
+  spoiled += "FLASHER 50 30 photons=1e8\n";
+  spoiled += "FLASHER 51 30 wavelength_nm=340 photons=1e8\nHIT 51 31 200 340 1.5 0.2 1.5 0.2\n";
+  spoiled += "FLASHER 26 30 photons=1e8\n";
+  for (int i = 0; i < 2000; ++i) spoiled += "HIT 26 31 120 405 1.5 0.2 1.5 0.2\n";
+  for (int i = 0; i < 40; ++i) spoiled += "HIT 26 33 330 405 1.5 0.2 1.5 0.2\n";
+  write("spoiled.hits", spoiled);
+  const Outcome outcome = floe_well("fit-ice spoiled.hits --fit absorption-scale --light 1 -o fitted");
+  const std::string left_out = result()["left_out"].dump();
+  for (const char* said : {"run 50,30: no light", "run 51,30: flashes at 340 nm", "36,21:", "dead",
+                           "26,31 in run 26,30", "saturated"}) {
+    EXPECT_NE(left_out.find(said), std::string::npos) << said << " in " << left_out;
+    EXPECT_NE(outcome.out.find(said), std::string::npos) << said << " in " << outcome.out;
+  }
+  EXPECT_EQ(result()["runs"].size(), 3u);
+}
+
+TEST_F(FitIce, RefusesWhatMakesNoSense) {
+  simulate("");
+  const auto refuses = [&](const std::string& arguments, int code, const std::string& said) {
+    expect_error(floe("fit-ice " + arguments), code, said);
+    EXPECT_FALSE(fs::exists(folder_.path() / "new")) << arguments;
+  };
+  refuses("runs.h5 --fit absorbtion -o new", 2, "did you mean 'absorption");
+  refuses("runs.h5 --fit absorption-layer -o new", 2, "expected one of depth, width, factor");
+  refuses("runs.h5 --fit string-efficiency.factor -o new", 2, "fit of its own");
+  refuses("runs.h5 --fit angular-acceptance -o new", 2, "does not belong to the ice");
+  refuses("runs.h5 --fit absorption,absorption -o new", 2, "named twice");
+  refuses("runs.h5 --depths 2000,1500 -o new", 2, "shallower depth first");
+  refuses("runs.h5 --layers 0 -o new", 2, "--layers");
+  refuses("nothing.h5 -o new", 3, "nothing.h5");
+  refuses("runs.h5 -o missing/new", 5, "missing");
+  fs::create_directory(folder_.path() / "full");
+  write("full/file", "kept");
+  expect_error(floe("fit-ice runs.h5 -o full"), 5, "not empty");
+  EXPECT_EQ(text_of("full/file"), "kept");
+  // Events that are no flasher runs.
+  floe_well("simulate --cascade 0,0,-300,70,130,1e3 --oversize 10 --quiet -o cascade.h5");
+  refuses("cascade.h5 -o new", 4, "no flasher run");
+}
+
+}  // namespace
+}  // namespace floe::test
