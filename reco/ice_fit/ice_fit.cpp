@@ -9,8 +9,8 @@
 #include "data/base/error.h"
 #include "reco/ice_fit/ice_solution.h"
 #include "reco/ice_fit/run_light.h"
+#include "reco/ice_fit/run_likelihood.h"
 #include "reco/ice_fit/score_system.h"
-#include "reco/likelihood/limited_simulation.h"
 
 namespace floe {
 
@@ -48,26 +48,8 @@ void check(const IceFitOptions& options) {
 // Hits with the run's time zero.
 SimulatedRun simulate(const Model& model, const RunRequest& request, double time_zero) {
   SimulatedRun run = simulate_run(model, request);
-  for (SimulatedHit& hit : run.hits) hit.time += static_cast<float>(time_zero);
+  delay(run, time_zero);
   return run;
-}
-
-double used_hits(const SimulatedRun& simulated, const RunData& run) {
-  double hits = 0;
-  for (const SimulatedHit& hit : simulated.hits) hits += run.used[hit.module];
-  return hits;
-}
-
-// Variance of sums of hits over that of independent ones: a photon may be seen more than once.
-double dispersion(const SimulatedRun& run) {
-  double square = 0;
-  for (std::size_t i = 0; i < run.hits.size();) {
-    std::size_t k = i;
-    while (k < run.hits.size() && run.hits[k].photon == run.hits[i].photon) ++k;
-    square += static_cast<double>((k - i) * (k - i));
-    i = k;
-  }
-  return run.hits.empty() ? 1 : square / static_cast<double>(run.hits.size());
 }
 
 class Fit {
@@ -236,20 +218,12 @@ class Fit {
       const double photons = photons_of(r);
       const SimulatedRun simulated = simulate(model, request(r, 2, photons), states_[r].time_zero);
       fit_.photons += simulated.propagated;
-      RunResult result;
-      result.name = run.name;
-      result.brightness = states_[r].brightness / run.repeats;
-      result.time_zero = states_[r].time_zero;
-      result.bins = bins.size();
-      const RunLight light = count_light(simulated, bins, photons, 0);
-      const Eigen::VectorXd counts = run.counts(bins);
-      const double factor = dispersion(simulated);
-      for (int b = 0; b < bins.size(); ++b) {
-        const double seen = (light.folds[0].counts(b) + light.folds[1].counts(b)) / factor;
-        result.neg_llh += limited_simulation({counts(b), states_[r].brightness, seen, photons / factor},
-                                             options_.model_error)
-                              .value;
-      }
+      // Its hits have the time zero already.
+      const RunMeasurement measured =
+          measure_run(simulated, photons, run, bins, {states_[r].brightness, 0}, options_.model_error);
+      const RunResult result{run.name, measured.nuisances.brightness / run.repeats,
+                             states_[r].time_zero + measured.nuisances.time_zero, measured.neg_llh,
+                             measured.bins};
       fit_.neg_llh += result.neg_llh;
       fit_.bins += result.bins;
       fit_.runs.push_back(result);

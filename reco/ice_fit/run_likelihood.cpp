@@ -1,0 +1,106 @@
+#include "reco/ice_fit/run_likelihood.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reco/likelihood/limited_simulation.h"
+
+namespace floe {
+
+namespace {
+
+constexpr double time_step = 1;  // [ns]
+constexpr int most_steps = 20;
+
+Eigen::VectorXd simulated_counts(const SimulatedRun& simulated, const RunBins& bins, double time_zero) {
+  Eigen::VectorXd counts = Eigen::VectorXd::Zero(bins.size());
+  for (const SimulatedHit& hit : simulated.hits)
+    if (const int bin = bins.bin(hit.module, hit.time + time_zero); bin >= 0) counts(bin) += 1;
+  return counts;
+}
+
+struct Counts {
+  Eigen::VectorXd data, simulated;
+  double photons;  // of the simulation; both in units of independent hits
+};
+
+// At one brightness: value, slope and curvature in its logarithm.
+BinLikelihood sum_at(const Counts& counts, double brightness, double model_error) {
+  BinLikelihood sum;
+  for (Eigen::Index b = 0; b < counts.data.size(); ++b) {
+    const BinLikelihood bin =
+        limited_simulation({counts.data(b), brightness, counts.simulated(b), counts.photons}, model_error);
+    sum.value += bin.value;
+    sum.slope += bin.slope;
+    sum.curvature += bin.curvature;
+  }
+  return sum;
+}
+
+// Newton's way; the sum is convex in the logarithm of brightness.
+double best_brightness(const Counts& counts, double brightness, double model_error) {
+  for (int i = 0; i < most_steps; ++i) {
+    const BinLikelihood at = sum_at(counts, brightness, model_error);
+    if (!(at.curvature > 0)) break;
+    const double step = std::clamp(-at.slope / at.curvature, -1.0, 1.0);
+    brightness *= std::exp(step);
+    if (std::abs(step) < 1e-6) break;
+  }
+  return brightness;
+}
+
+}  // namespace
+
+double used_hits(const SimulatedRun& simulated, const RunData& run) {
+  return static_cast<double>(
+      std::count_if(simulated.hits.begin(), simulated.hits.end(),
+                    [&](const SimulatedHit& hit) { return run.used[hit.module] != 0; }));
+}
+
+double dispersion(const SimulatedRun& simulated) {
+  double square = 0;
+  for (std::size_t i = 0; i < simulated.hits.size();) {
+    std::size_t k = i;
+    while (k < simulated.hits.size() && simulated.hits[k].photon == simulated.hits[i].photon) ++k;
+    square += static_cast<double>((k - i) * (k - i));
+    i = k;
+  }
+  return simulated.hits.empty() ? 1 : square / static_cast<double>(simulated.hits.size());
+}
+
+void delay(SimulatedRun& simulated, double time) {
+  for (SimulatedHit& hit : simulated.hits) hit.time += static_cast<float>(time);
+}
+
+double run_neg_llh(const SimulatedRun& simulated, double photons, const RunData& run, const RunBins& bins,
+                   const RunNuisances& nuisances, double model_error) {
+  const double factor = dispersion(simulated);
+  const Counts counts{run.counts(bins), simulated_counts(simulated, bins, nuisances.time_zero) / factor,
+                      photons / factor};
+  return sum_at(counts, nuisances.brightness, model_error).value;
+}
+
+RunMeasurement measure_run(const SimulatedRun& simulated, double photons, const RunData& run,
+                           const RunBins& bins, const RunNuisances& start, double model_error) {
+  const double factor = dispersion(simulated);
+  const double first = start.brightness > 0 ? start.brightness
+                                            : run.charge * photons / std::max(1.0, used_hits(simulated, run));
+  const Eigen::VectorXd data = run.counts(bins);
+  const auto at = [&](double time_zero) {
+    const Counts counts{data, simulated_counts(simulated, bins, time_zero) / factor, photons / factor};
+    const double brightness = best_brightness(counts, first, model_error);
+    return RunMeasurement{
+        sum_at(counts, brightness, model_error).value, {brightness, time_zero}, bins.size()};
+  };
+  // Downhill in steps of the time; finer than the simulation's own noise makes no sense.
+  RunMeasurement best = at(start.time_zero);
+  for (const double way : {time_step, -time_step})
+    for (int i = 0; i < most_steps; ++i) {
+      const RunMeasurement next = at(best.nuisances.time_zero + way);
+      if (next.neg_llh >= best.neg_llh) break;
+      best = next;
+    }
+  return best;
+}
+
+}  // namespace floe

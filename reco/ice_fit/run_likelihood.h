@@ -1,0 +1,36 @@
+// How well a model describes a flasher run: fresh simulation, likelihood with its limited size.
+#pragma once
+
+#include "reco/ice_fit/run_bins.h"
+#include "reco/ice_fit/run_data.h"
+#include "reco/ice_fit/run_light.h"
+
+namespace floe {
+
+// A run's own numbers, of no interest for the ice.
+struct RunNuisances {
+  double brightness = 0;  // N of all flashes together
+  double time_zero = 0;   // [ns]
+};
+
+struct RunMeasurement {
+  double neg_llh = 0;      // saturated: 0 for perfect agreement (reco/likelihood/limited_simulation.h)
+  RunNuisances nuisances;  // that minimise it
+  int bins = 0;
+};
+
+// Hits of used receivers.
+double used_hits(const SimulatedRun& simulated, const RunData& run);
+// Variance of sums of hits over that of independent ones: a photon may be seen more than once. >= 1
+double dispersion(const SimulatedRun& simulated);
+// Moves all hits in time [ns].
+void delay(SimulatedRun& simulated, double time);
+
+// The likelihood of a run's counts at these nuisances. `photons`: N of the simulation.
+double run_neg_llh(const SimulatedRun& simulated, double photons, const RunData& run, const RunBins& bins,
+                   const RunNuisances& nuisances, double model_error);
+// And at the best ones: `start` is where to look for them first; brightness 0: from the number of hits.
+RunMeasurement measure_run(const SimulatedRun& simulated, double photons, const RunData& run,
+                           const RunBins& bins, const RunNuisances& start, double model_error);
+
+}  // namespace floe
