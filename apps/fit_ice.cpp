@@ -6,14 +6,13 @@
 
 #include "apps/commands.h"
 #include "apps/common_options.h"
+#include "apps/flasher_data_file.h"
 #include "apps/ice_fit_output.h"
 #include "apps/option_values.h"
 #include "apps/progress_bar.h"
 #include "data/base/atomic_folder.h"
 #include "data/base/constants.h"
 #include "data/base/error.h"
-#include "data/event_files.h"
-#include "data/flasher_text.h"
 
 namespace floe {
 
@@ -31,13 +30,6 @@ struct FitIceCommand {
   SimulationSettings run;
   OutputOptions output;
 };
-
-std::vector<Event> read_data(const std::string& file) {
-  if (file.ends_with(".h5")) return read_event_file(file).events;
-  std::vector<Event> events;  // texts of flasher runs have lines that say where each begins
-  for_each_flasher_run(file, [&](const Event& event) { events.push_back(event); });
-  return events;
-}
 
 DepthRange depth_range(const FitIceCommand& command, const Detector& detector, const FlasherData& data) {
   DepthRange range{1e9, -1e9, command.layers};
@@ -98,7 +90,7 @@ void run_fit_ice(const FitIceCommand& command) {
   options.oversize = command.run.oversize;
   AtomicFolder folder(command.folder);
   PlannedOutput json(command.output.json);
-  const std::vector<Event> events = read_data(command.data);
+  const std::vector<Event> events = read_flasher_events(command.data);
   const Model base = load_model(command.model);
   FlasherData data = flasher_data(*base.detector, events);
   const auto parameters = parameters_of(command, base, depth_range(command, *base.detector, data));
@@ -128,10 +120,7 @@ void add_fit_ice(CLI::App& floe, const std::string& command_line) {
   const auto command = std::make_shared<FitIceCommand>();
   command->command = command_line;
   command->run.oversize = command->options.oversize;
-  app.add_option("data", command->data,
-                 "Flasher runs: .h5, or text with FLASHER lines (.hits, .txt, .dat, also .gz)")
-      ->type_name("DATA")
-      ->required();
+  app.add_option("data", command->data, flasher_data_description)->type_name("DATA")->required();
   app.add_option("-o,--output", command->folder, "New folder for the result")->type_name("DIR")->required();
   add_model_options(app, command->model);
   app.add_option_function<std::string>(
@@ -150,6 +139,8 @@ void add_fit_ice(CLI::App& floe, const std::string& command_line) {
       ->type_name("TOP,BOTTOM");
   add_number(app, "--light", "RATIO", {0.1, 1000}, "Simulated light, in units of the data's",
              command->options.light);
+  add_number(app, "--least-hits", "N", {100, 1e8}, "Simulated hits of a run, at least",
+             command->options.least_hits);
   add_number(app, "--model-error", "SIGMA", {0, 1},
              "Relative error of the simulation that the fit allows for", command->options.model_error);
   add_number(app, "--smoothness", "SIGMA", {0.001, 100},

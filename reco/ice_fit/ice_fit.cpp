@@ -89,6 +89,7 @@ class Fit {
   // How much light of each run is seen, in the starting model, and which receivers cannot be right.
   void look_first() {
     const Model model = this->model();
+    leave_out_bright_receivers(*model.detector, saturation, data_);
     std::vector<SimulatedRun> looks;
     std::vector<std::vector<double>> expected;
     for (std::size_t r = 0; r < states_.size(); ++r) {

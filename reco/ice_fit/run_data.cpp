@@ -45,9 +45,16 @@ double usual_wavelength(const std::vector<RunData>& runs) {
   return usual;
 }
 
-void leave_out_run(FlasherData& data, std::size_t i, const std::string& why) {
-  data.left_out.push_back(fmt::format("run {}: {}", data.runs[i].name, why));
-  data.runs.erase(data.runs.begin() + static_cast<std::ptrdiff_t>(i));
+// `problem` says in words why a run is left out; empty: it is not.
+template <class Problem>
+void leave_out_runs(FlasherData& data, Problem problem) {
+  std::vector<RunData> good;
+  for (RunData& run : data.runs)
+    if (const std::string why = problem(run); why.empty())
+      good.push_back(std::move(run));
+    else
+      data.left_out.push_back(fmt::format("run {}: {}", run.name, why));
+  data.runs = std::move(good);
 }
 
 }  // namespace
@@ -67,66 +74,82 @@ FlasherData flasher_data(const Detector& detector, std::span<const Event> events
     else
       data.left_out.push_back(fmt::format("event {}: not a flasher run", event.id));
   }
-  for (std::size_t i = data.runs.size(); i-- > 0;)
-    if (!(data.runs[i].charge > 0)) leave_out_run(data, i, "no light on any module");
+  leave_out_runs(
+      data, [](const RunData& run) { return run.charge > 0 ? "" : std::string("no light on any module"); });
   const double usual = usual_wavelength(data.runs);
-  for (std::size_t i = data.runs.size(); i-- > 0;)
-    if (const double wavelength = data.runs[i].run.wavelength; wavelength != usual)
-      leave_out_run(data, i,
-                    fmt::format("flashes at {:g} nm, most others at {:g} nm; fit them apart, since the ice's "
-                                "numbers are fitted for one colour",
-                                wavelength, usual));
+  leave_out_runs(data, [&](const RunData& run) {
+    return run.run.wavelength == usual
+               ? ""
+               : fmt::format(
+                     "flashes at {:g} nm, most others at {:g} nm; fit them apart, since the ice's numbers "
+                     "are fitted for one colour",
+                     run.run.wavelength, usual);
+  });
   if (data.runs.empty()) throw NoResult("not enough light: no flasher run with light on any module");
   return data;
 }
 
 namespace {
 
-double charge_of(const RunData& run, std::size_t module) {
-  double charge = 0;
-  for (const RunData::Pulse& pulse : run.pulses)
-    if (pulse.module == module) charge += pulse.charge;
-  return charge;
+std::vector<double> charges_of(const RunData& run) {  // by module
+  std::vector<double> charges(run.used.size(), 0.0);
+  for (const RunData::Pulse& pulse : run.pulses) charges[pulse.module] += pulse.charge;
+  return charges;
 }
 
-void leave_out_receiver(RunData& run, std::size_t module) {
-  run.used[module] = 0;
-  run.charge -= charge_of(run, module);
-  std::erase_if(run.pulses, [&](const RunData::Pulse& pulse) { return pulse.module == module; });
+void drop_unused_pulses(RunData& run) {
+  std::erase_if(run.pulses, [&](const RunData::Pulse& pulse) { return !run.used[pulse.module]; });
+  run.charge = 0;
+  for (const RunData::Pulse& pulse : run.pulses) run.charge += pulse.charge;
 }
 
-void leave_out_saturated(const std::string& name, std::size_t module, double expected, double saturation,
-                         RunData& run, std::vector<std::string>& left_out) {
-  // Photons that no electronics have seen do not saturate.
-  if (!run.used[module] || run.run.oversize > 1) return;
-  const double flash = std::max(charge_of(run, module), expected) / run.repeats;
-  if (flash <= saturation) return;
-  left_out.push_back(
-      fmt::format("{} in run {}: {:.3g} photoelectrons a flash, above the limit of {:.3g}: saturated", name,
-                  run.name, flash, saturation));
-  leave_out_receiver(run, module);
+std::string name_of_module(const Detector& detector, std::size_t module) {
+  return module_name(detector.modules()[module].id);
+}
+
+// `light`: of each module, of all flashes together.
+void leave_out_saturated(const Detector& detector, const std::vector<double>& light, const char* seen,
+                         double saturation, RunData& run, std::vector<std::string>& left_out) {
+  if (run.run.oversize > 1) return;  // photons that no electronics have seen do not saturate
+  for (std::size_t module = 0; module < light.size(); ++module) {
+    const double flash = light[module] / run.repeats;
+    if (!run.used[module] || flash <= saturation) continue;
+    run.used[module] = 0;
+    left_out.push_back(
+        fmt::format("{} in run {}: {:.3g} photoelectrons a flash {}, above the limit of {:.3g}: saturated",
+                    name_of_module(detector, module), run.name, flash, seen, saturation));
+  }
+  drop_unused_pulses(run);
 }
 
 }  // namespace
 
+void leave_out_bright_receivers(const Detector& detector, double saturation, FlasherData& data) {
+  for (RunData& run : data.runs)
+    leave_out_saturated(detector, charges_of(run), "seen", saturation, run, data.left_out);
+}
+
 void leave_out_bad_receivers(const Detector& detector, const std::vector<std::vector<double>>& expected,
                              double saturation, FlasherData& data) {
-  for (std::size_t module = 0; module < detector.size(); ++module) {
-    const std::string name = module_name(detector.modules()[module].id);
-    double should = 0, saw = 0;
-    for (std::size_t r = 0; r < data.runs.size(); ++r) {
-      RunData& run = data.runs[r];
-      leave_out_saturated(name, module, expected[r][module], saturation, run, data.left_out);
+  std::vector<double> should(detector.size(), 0.0), saw(detector.size(), 0.0);
+  for (std::size_t r = 0; r < data.runs.size(); ++r) {
+    RunData& run = data.runs[r];
+    leave_out_saturated(detector, expected[r], "expected", saturation, run, data.left_out);
+    const std::vector<double> charges = charges_of(run);
+    for (std::size_t module = 0; module < detector.size(); ++module) {
       if (!run.used[module]) continue;
-      should += expected[r][module];
-      saw += charge_of(run, module);
+      should[module] += expected[r][module];
+      saw[module] += charges[module];
     }
-    if (should < plenty || saw > hardly_any * should) continue;
-    data.left_out.push_back(fmt::format(
-        "{}: {:.3g} photoelectrons where about {:.3g} are expected: dead, or off", name, saw, should));
-    for (RunData& run : data.runs)
-      if (run.used[module]) leave_out_receiver(run, module);
   }
+  for (std::size_t module = 0; module < detector.size(); ++module) {
+    if (should[module] < plenty || saw[module] > hardly_any * should[module]) continue;
+    data.left_out.push_back(
+        fmt::format("{}: {:.3g} photoelectrons where about {:.3g} are expected: dead, or off",
+                    name_of_module(detector, module), saw[module], should[module]));
+    for (RunData& run : data.runs) run.used[module] = 0;
+  }
+  for (RunData& run : data.runs) drop_unused_pulses(run);
 }
 
 }  // namespace floe

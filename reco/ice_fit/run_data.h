@@ -33,13 +33,18 @@ struct FlasherData {
 };
 
 // The flasher runs among the events. Left out, with a sentence: events that are no flasher run, runs without
-// any light, runs at another wavelength than most, modules that are off, the flashing module itself.
-// Throws InputError for modules that the detector does not have, and NoResult when no run is left.
+// any light, runs at another wavelength than most. Modules that are off and the flashing module itself are
+// left out without a word. Throws InputError for modules that the detector does not have, and NoResult when
+// no run is left.
 FlasherData flasher_data(const Detector& detector, std::span<const Event> events);
 
+// Leaves out receivers of measured runs (oversize 1) that saw more than `saturation` photoelectrons in a
+// flash.
+void leave_out_bright_receivers(const Detector& detector, double saturation, FlasherData& data);
+
 // Leaves out receivers that cannot be right by any ice: dark in every run where `expected` light (per run and
-// module, as counts of the data) is plenty, and those that are near saturation, where one flash brings more
-// than `saturation` photoelectrons.
+// module, as counts of the data) is plenty, and those of measured runs that should have seen more than
+// `saturation` photoelectrons in a flash.
 void leave_out_bad_receivers(const Detector& detector, const std::vector<std::vector<double>>& expected,
                              double saturation, FlasherData& data);
 

@@ -37,7 +37,8 @@ class FitIce : public ::testing::Test {
 
 TEST_F(FitIce, FindsMoreAbsorptionAndLeavesAnIceModelThatIsReadAgain) {
   simulate("--with absorption-scale.factor=1.3");
-  const Outcome outcome = floe_well("fit-ice runs.h5 --fit absorption-scale --light 2 -o fitted");
+  const Outcome outcome =
+      floe_well("fit-ice runs.h5 --fit absorption-scale --light 2 --least-hits 6000 -o fitted");
   EXPECT_NE(outcome.out.find("absorption-scale.factor"), std::string::npos) << outcome.out;
   const Json found = result();
   const Json& parameter = found["parameters"][0];
@@ -49,11 +50,10 @@ TEST_F(FitIce, FindsMoreAbsorptionAndLeavesAnIceModelThatIsReadAgain) {
   for (const Json& run : found["runs"])
     EXPECT_NEAR(run["brightness_photons"].get<double>() / (0.675 * 3e8), 1, 0.25);
 
-  EXPECT_EQ(
-      files_in(folder_.path() / "fitted"),
-      (std::set<std::string>{"result.json", "stratigraphy.csv", "stratigraphy.svg", "improved-ice",
-                             "improved-ice/CHANGES.txt", "improved-ice/cfg.txt", "improved-ice/icemodel.bbl",
-                             "improved-ice/icemodel.dat", "improved-ice/icemodel.par"}));
+  EXPECT_EQ(files_in(folder_.path() / "fitted"),
+            (std::set<std::string>{"result.json", "stratigraphy.csv", "stratigraphy.svg", "improved-ice",
+                                   "improved-ice/CHANGES.txt", "improved-ice/cfg.txt",
+                                   "improved-ice/icemodel.dat", "improved-ice/icemodel.par"}));
   // The directory holds the ice that was fitted.
   floe_well("info --ice fitted/improved-ice --detector ic86 --json info.json --quiet");
   const Json info = Json::parse(text_of("info.json"));
@@ -63,7 +63,8 @@ TEST_F(FitIce, FindsMoreAbsorptionAndLeavesAnIceModelThatIsReadAgain) {
 
 TEST_F(FitIce, TheResultDoesNotDependOnThreads) {
   simulate("");
-  const std::string fit = "fit-ice runs.h5 --fit absorption,scattering --layers 3 --light 0.5 --quiet ";
+  const std::string fit =
+      "fit-ice runs.h5 --fit absorption,scattering --layers 3 --light 0.5 --least-hits 2000 --quiet ";
   floe_well(fit + "--threads 1 -o one");
   floe_well(fit + "--threads 3 -o fitted");
   const Json one = Json::parse(text_of("one/result.json"));
@@ -86,7 +87,8 @@ TEST_F(FitIce, LeavesOutWhatCannotBeRightAndFitsTheRest) {
   for (int i = 0; i < 2000; ++i) spoiled += "HIT 26 31 120 405 1.5 0.2 1.5 0.2\n";
   for (int i = 0; i < 40; ++i) spoiled += "HIT 26 33 330 405 1.5 0.2 1.5 0.2\n";
   write("spoiled.hits", spoiled);
-  const Outcome outcome = floe_well("fit-ice spoiled.hits --fit absorption-scale --light 1 -o fitted");
+  const Outcome outcome =
+      floe_well("fit-ice spoiled.hits --fit absorption-scale --light 1 --least-hits 2000 -o fitted");
   const std::string left_out = result()["left_out"].dump();
   for (const char* said : {"run 50,30: no light", "run 51,30: flashes at 340 nm", "36,21:", "dead",
                            "26,31 in run 26,30", "saturated"}) {
@@ -94,6 +96,29 @@ TEST_F(FitIce, LeavesOutWhatCannotBeRightAndFitsTheRest) {
     EXPECT_NE(outcome.out.find(said), std::string::npos) << said << " in " << outcome.out;
   }
   EXPECT_EQ(result()["runs"].size(), 3u);
+}
+
+TEST_F(FitIce, LadderRefitsFiveModelsAndHoldsEveryRunOutOnce) {
+  simulate("");
+  const Outcome outcome =
+      floe_well("ladder runs.h5 --light 0.5 --least-hits 1000 --oversize 16 --json ladder.json");
+  const Json ladder = Json::parse(text_of("ladder.json"));
+  ASSERT_EQ(ladder["models"].size(), 5u);
+  double least = 1e300;
+  std::string best;
+  for (const Json& model : ladder["models"]) {
+    ASSERT_EQ(model["held_out_of_runs"].size(), 2u);
+    double sum = 0;
+    for (const Json& run : model["held_out_of_runs"]) sum += run.get<double>();
+    EXPECT_NEAR(model["held_out_neg_llh"].get<double>(), sum, 1e-9 * sum);
+    if (sum < least) least = sum, best = model["model"];
+    EXPECT_NE(outcome.out.find(model["model"].get<std::string>()), std::string::npos);
+    for (const Json& parameter : model["parameters"]) EXPECT_GT(parameter["error"].get<double>(), 0);
+  }
+  EXPECT_EQ(ladder["best"], best);
+  EXPECT_EQ(ladder["models"][0]["parameters"].size(), 2u);  // isotropic: scales of absorption and scattering
+  EXPECT_EQ(ladder["models"][4]["parameters"].size(), 4u);
+  expect_error(floe("ladder runs.h5 --folds 3"), 2, "2 to 2");
 }
 
 TEST_F(FitIce, RefusesWhatMakesNoSense) {

@@ -165,13 +165,14 @@ TEST(BadReceivers, NearSaturationAreLeftOutOfThatRun) {
   const std::vector<Event> events{run_of("bright", {0, 501, 2, 0, 3}), run_of("dim", {0, 400, 2, 0, 3})};
   FlasherData data = flasher_data(detector, events);
   // Saturated modules see less than they should: what is expected counts as well.
+  leave_out_bright_receivers(detector, 500, data);
   leave_out_bad_receivers(detector, {{0, 4000, 20, 0, 6000}, {0, 4000, 20, 0, 30}}, 500, data);
   EXPECT_EQ(data.runs[0].used, (std::vector<char>{0, 0, 1, 0, 0}));
   EXPECT_DOUBLE_EQ(data.runs[0].charge, 20);
   EXPECT_EQ(data.runs[1].used, (std::vector<char>{0, 1, 1, 0, 1}));
   ASSERT_EQ(data.left_out.size(), 2U);
-  EXPECT_TRUE(says(data.left_out, "module 2,1 in run bright: 501 photoelectrons"));
-  EXPECT_TRUE(says(data.left_out, "module 5,1 in run bright: 600 photoelectrons"));
+  EXPECT_TRUE(says(data.left_out, "module 2,1 in run bright: 501 photoelectrons a flash seen"));
+  EXPECT_TRUE(says(data.left_out, "module 5,1 in run bright: 600 photoelectrons a flash expected"));
 }
 
 // Photons of a simulation have met no electronics.

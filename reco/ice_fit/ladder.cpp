@@ -1,0 +1,178 @@
+#include "reco/ice_fit/ladder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "data/base/error.h"
+#include "reco/ice_fit/run_likelihood.h"
+
+namespace floe {
+
+namespace {
+
+constexpr double first_photons = 3e8;  // N of the first look at a run
+constexpr int rounds_of_folds = 3;     // they start where the fit to all runs ended
+constexpr std::uint64_t scout_stream = std::uint64_t{1} << 60, held_out_stream = std::uint64_t{1} << 61;
+
+struct RungPlan {
+  const char* name;
+  std::vector<const char*> effects;
+};
+const std::vector<RungPlan>& plans() {
+  static const std::vector<RungPlan> all{
+      {"isotropic", {}},
+      {"absorption anisotropy", {"absorption-anisotropy"}},
+      {"scattering anisotropy", {"scattering-anisotropy"}},
+      {"birefringence", {"birefringence"}},
+      {"birefringence and absorption anisotropy", {"birefringence", "absorption-anisotropy"}}};
+  return all;
+}
+
+Model isotropic(const Model& base) {
+  ModelParts parts = parts_of(base);
+  for (const char* effect : {"birefringence", "absorption-anisotropy", "scattering-anisotropy"})
+    switch_off(parts.ice, effect);
+  return freeze(std::move(parts));
+}
+
+std::vector<IceParameter> parameters_of(const RungPlan& plan, const Model& base) {
+  std::vector<IceParameter> parameters;
+  for (const char* effect : {"absorption-scale", "scattering-scale"})
+    parameters.push_back(effect_parameter(effect, base));
+  for (const char* effect : plan.effects) {
+    parameters.push_back(effect_parameter(effect, base));
+    // Birefringence has no slope where there is none.
+    if (effect == std::string_view("birefringence")) parameters.back().start = 1;
+  }
+  return parameters;
+}
+
+// The held-out runs' bins and photons, the same for every rung.
+struct Measure {
+  std::vector<double> photons;
+  std::vector<RunBins> bins;
+};
+
+class Climb {
+ public:
+  Climb(const Model& base, const FlasherData& data, const LadderOptions& options, const Progress& progress)
+      : base_(base), data_(data), options_(options), progress_(progress) {}
+
+  Ladder run() {
+    plan_measure();
+    Ladder ladder;
+    for (const RunData& run : data_.runs) ladder.runs.push_back(run.name);
+    const Model bare = isotropic(base_);
+    for (const RungPlan& plan : plans()) ladder.rungs.push_back(rung(plan, bare));
+    return ladder;
+  }
+
+ private:
+  RunRequest request(std::size_t r, std::uint64_t stream, double photons) const {
+    return {data_.runs[r].run, photons,    options_.fit.oversize,
+            options_.fit.seed, stream + r, options_.fit.threads};
+  }
+
+  void plan_measure() {
+    for (std::size_t r = 0; r < data_.runs.size(); ++r) {
+      const RunData& run = data_.runs[r];
+      const SimulatedRun look = simulate_run(base_, request(r, scout_stream, first_photons));
+      const double each = std::max(1.0, used_hits(look, run)) / first_photons;
+      const double wanted = std::max(options_.fit.least_hits, options_.fit.light * run.charge) / each;
+      measure_.photons.push_back(std::min(options_.fit.most_photons, wanted));
+      measure_.bins.emplace_back(look.hits, run.charge / (each * first_photons), run.used, RunBins::Rules{});
+    }
+  }
+
+  FlasherData without_fold(int fold) const {
+    FlasherData rest;
+    for (std::size_t r = 0; r < data_.runs.size(); ++r)
+      if (static_cast<int>(r) % options_.folds != fold) rest.runs.push_back(data_.runs[r]);
+    return rest;
+  }
+
+  IceFit fit(const Model& bare, const FlasherData& data, const std::vector<IceParameter>& parameters,
+             int most_rounds) {
+    IceFitOptions options = options_.fit;
+    options.most_rounds = std::min(options.most_rounds, most_rounds);
+    const double done = static_cast<double>(fits_++) /
+                        static_cast<double>(plans().size() * static_cast<std::size_t>(options_.folds + 1));
+    const double share =
+        1 / static_cast<double>(plans().size() * static_cast<std::size_t>(options_.folds + 1));
+    return fit_ice(bare, data, parameters, options, [&](double fraction, const std::string& stage) {
+      if (progress_) progress_(done + share * fraction, name_ + ": " + stage);
+    });
+  }
+
+  LadderRung rung(const RungPlan& plan, const Model& bare) {
+    name_ = plan.name;
+    LadderRung rung;
+    rung.name = plan.name;
+    std::vector<IceParameter> parameters = parameters_of(plan, bare);
+    rung.fit = fit(bare, data_, parameters, options_.fit.most_rounds);
+    for (std::size_t i = 0; i < parameters.size(); ++i) parameters[i].start = rung.fit.numbers[i];
+    rung.held_out.assign(data_.runs.size(), 0);
+    for (int fold = 0; fold < options_.folds; ++fold) {
+      const IceFit blind = fit(bare, without_fold(fold), parameters, rounds_of_folds);
+      const Model model = with_parameters(bare, parameters, blind.numbers);
+      for (std::size_t r = 0; r < data_.runs.size(); ++r)
+        if (static_cast<int>(r) % options_.folds == fold) rung.held_out[r] = held_out(model, r);
+    }
+    return rung;
+  }
+
+  double held_out(const Model& model, std::size_t r) const {
+    const SimulatedRun simulated = simulate_run(model, request(r, held_out_stream, measure_.photons[r]));
+    return measure_run(simulated, measure_.photons[r], data_.runs[r], measure_.bins[r], {},
+                       options_.fit.model_error)
+        .neg_llh;
+  }
+
+  const Model& base_;
+  const FlasherData& data_;
+  const LadderOptions& options_;
+  const Progress& progress_;
+  Measure measure_;
+  std::string name_;
+  std::size_t fits_ = 0;
+};
+
+}  // namespace
+
+double LadderRung::total() const {
+  return std::accumulate(held_out.begin(), held_out.end(), 0.0);
+}
+
+std::size_t Ladder::best() const {
+  const auto least =
+      std::min_element(rungs.begin(), rungs.end(),
+                       [](const LadderRung& a, const LadderRung& b) { return a.total() < b.total(); });
+  return static_cast<std::size_t>(least - rungs.begin());
+}
+
+Ladder::Gap Ladder::gap(std::size_t rung) const {
+  const std::vector<double>&worse = rungs[rung].held_out, &better = rungs[best()].held_out;
+  const auto n = static_cast<double>(worse.size());
+  Gap gap{rungs[rung].total() - rungs[best()].total(), 0};
+  double squares = 0;
+  for (std::size_t r = 0; r < worse.size(); ++r) {
+    const double off = worse[r] - better[r] - gap.value / n;
+    squares += off * off;
+  }
+  gap.error = std::sqrt(squares * n / std::max(1.0, n - 1));
+  return gap;
+}
+
+Ladder climb_ladder(const Model& base, const FlasherData& data, const LadderOptions& options,
+                    const Progress& progress) {
+  if (data.runs.size() < 2) throw UsageError("a ladder holds runs out: it needs at least two flasher runs");
+  if (options.folds < 2 || options.folds > static_cast<int>(data.runs.size()))
+    throw UsageError(
+        fmt::format("found {} folds; expected 2 to {}, the number of runs", options.folds, data.runs.size()));
+  return Climb(base, data, options, progress).run();
+}
+
+}  // namespace floe
