@@ -13,6 +13,7 @@
 #include "data/base/atomic_folder.h"
 #include "data/base/constants.h"
 #include "data/base/error.h"
+#include "reco/ice_fit/layers_apart.h"
 
 namespace floe {
 
@@ -26,6 +27,7 @@ struct FitIceCommand {
   std::vector<std::string> fit{"absorption", "scattering"};
   int layers = 10;
   std::optional<std::string> depths;
+  bool layer_by_layer = false;
   IceFitOptions options;
   SimulationSettings run;
   OutputOptions output;
@@ -98,9 +100,10 @@ void run_fit_ice(const FitIceCommand& command) {
   IceFit fit;
   {
     ProgressBar bar(command.output.quiet);
-    fit = fit_ice(base, data, parameters, options, bar.callback());
+    fit = (command.layer_by_layer ? fit_layers_apart : fit_ice)(base, data, parameters, options,
+                                                                bar.callback());
   }
-  const Model fitted = with_parameters(base, parameters, fit.numbers);
+  const Model fitted = with_parameters(base, fit.parameters, fit.numbers);
   const std::vector<std::string> left_out = fit.left_out;
   const IceFitReport report{command.model,   base,         fitted, std::move(fit), left_out,
                             command.command, command.data, options};
@@ -137,6 +140,8 @@ void add_fit_ice(CLI::App& floe, const std::string& command_line) {
                  "Range of the layers [m]; ice beyond it follows the outermost ones. Default: 50 m beyond "
                  "the flashers")
       ->type_name("TOP,BOTTOM");
+  app.add_flag("--layer-by-layer", command->layer_by_layer,
+               "Fit each layer to the flashers inside it alone, instead of all layers to all flashers");
   add_number(app, "--light", "RATIO", {0.1, 1000}, "Simulated light, in units of the data's",
              command->options.light);
   add_number(app, "--least-hits", "N", {100, 1e8}, "Simulated hits of a run, at least",

@@ -1,6 +1,7 @@
 // floe fit-ice on the command line: what it leaves behind, what it says of bad data, what it refuses.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -70,6 +71,23 @@ TEST_F(FitIce, TheResultDoesNotDependOnThreads) {
   const Json one = Json::parse(text_of("one/result.json"));
   EXPECT_EQ(one["parameters"], result()["parameters"]);
   EXPECT_EQ(one["parameters"].size(), 6u);
+}
+
+TEST_F(FitIce, LayerByLayerUsesTheFlashersInside) {
+  simulate("");
+  floe_well(
+      "fit-ice runs.h5 --fit absorption,scattering --layers 4 --layer-by-layer --light 0.5 --least-hits 2000 "
+      "--quiet -o fitted");
+  // The flashers are in the first and in the last of four layers.
+  const Json found = result();
+  std::vector<std::string> names;
+  for (const Json& parameter : found["parameters"]) names.push_back(parameter["name"]);
+  EXPECT_EQ(names.size(), 4u);
+  EXPECT_TRUE(std::is_sorted(names.begin(), names.end())) << found["parameters"].dump();
+  EXPECT_EQ(found["runs"].size(), 2u);
+  EXPECT_EQ(found["correlation"][0][1], 0);  // other flashers, other layer
+  EXPECT_NE(found["correlation"][0][2], 0);  // absorption and scattering of one layer
+  expect_error(floe("fit-ice runs.h5 --fit absorption,flow-azimuth --layer-by-layer -o new"), 2, "no layer");
 }
 
 TEST_F(FitIce, LeavesOutWhatCannotBeRightAndFitsTheRest) {
