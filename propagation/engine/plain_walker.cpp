@@ -13,7 +13,7 @@
 #include "propagation/engine/directions.h"
 #include "propagation/engine/hole_ice.h"
 #include "propagation/engine/meeting_modules.h"
-#include "propagation/engine/path_scores.h"
+#include "propagation/engine/path_record.h"
 #include "propagation/engine/photon_acceptance.h"
 #include "propagation/engine/scattering.h"
 #include "propagation/engine/walker.h"
@@ -48,13 +48,8 @@ struct Piece {
 
 // A path as far as it has been walked, and where its hits go.
 struct Trace {
-  struct Flight {
-    int layer;
-    double length;
-  };
-  PathScores scores;
+  PathRecord record;
   const PathSink& sink;
-  std::vector<Flight> last_piece = {};  // its layers
 };
 
 // What one call of walk() or trace() is about.
@@ -65,13 +60,6 @@ struct Task {
   Trace* trace = nullptr;
   WalkerCounts counts = {};
 };
-
-void clear(PathScores& scores, std::size_t layers) {
-  scores.layers.assign(layers, {});
-  scores.absorption_anisotropy = {};
-  scores.lowest = static_cast<int>(layers);
-  scores.highest = -1;
-}
 
 class PlainWalker : public PhotonWalker, public PathTracer {
  public:
@@ -105,13 +93,13 @@ class PlainWalker : public PhotonWalker, public PathTracer {
              std::span<const std::uint64_t> photons, const PathSink& sink) const override {
     const PhotonBatch batch{seed, stream, 0, 0};
     std::vector<SimulatedHit> hits;
-    Trace trace{{}, sink};
+    Trace trace{PathRecord(), sink};
     Task task{batch, source.emitting_module(), hits, &trace};
     for (const std::uint64_t id : photons) {
       RandomStream random(seed, stream, id);
       const EmittedPhoton born = source.emit(random);
       if (random.uniform() >= acceptance_.walked_share(born.wavelength)) continue;
-      clear(trace.scores, ice_.layers().size());
+      trace.record = PathRecord(ice_.layers().size());
       hits.clear();
       walk_one(born, id, random, task);
     }
@@ -136,12 +124,12 @@ class PlainWalker : public PhotonWalker, public PathTracer {
       const Piece piece = next_piece(photon);
       const bool stopped = meet_modules(photon, piece, speed, random, task);
       if (stopped || piece.end == Piece::End::absorption) return;
-      if (task.trace) score_piece(photon, piece, *task.trace);
+      if (task.trace) record_piece(photon, piece, task.trace->record);
       photon.position += piece.length * photon.direction;
       photon.time += piece.length / speed;
       photon.absorption_depth = piece.absorption_depth;
       photon.scattering_depth = piece.scattering_depth;
-      if (!piece.in_column) birefringent_step(photon, piece, random, task.trace);
+      if (!piece.in_column) birefringent_step(photon, piece, random, task);
       if (piece.end == Piece::End::limit) continue;
       scatter(photon, piece, random);
       photon.scattering_depth = random.exponential();
@@ -258,7 +246,7 @@ class PlainWalker : public PhotonWalker, public PathTracer {
         const auto time = static_cast<float>(photon.time + crossing.distance / speed);
         task.hits.push_back({crossing.module, time, wavelength, direction, crossing.inward, photon.id,
                              weight(photon, piece, crossing.distance, task.batch.absorption_stretch)});
-        if (task.trace) score_hit(photon, piece, crossing.distance, task.hits.back(), *task.trace);
+        if (task.trace) tell_hit(photon, piece, crossing.distance, task.hits.back(), *task.trace);
       }
       if (oversize_ == 1) return true;
     }
@@ -279,58 +267,28 @@ class PlainWalker : public PhotonWalker, public PathTracer {
     return weight_of_stretched(photon.absorption_budget - flown.absorption_depth, stretch);
   }
 
-  // A flight of this length that ends in neither scatter nor absorption. Calls visit(layer, length).
-  template <class Visit>
-  void score_flight(const Photon& photon, double length, PathScores& scores, Visit&& visit) const {
-    const auto [n1, n2, n3] = flow_components(photon.direction);
-    const auto& K = ice_.absorption_anisotropy();
-    const double anisotropy = absorption_anisotropy_factor(K[0], K[1], K[2], n1, n2, n3);
-    const double slope[3] = {K[0] * n1 * n1, K[1] * n2 * n2, K[2] * n3 * n3};
-    piece_in_ice(photon, length, [&](int layer, double flown, double isotropic, double absorption) {
-      PathScores::Layer& score = scores.layers[static_cast<std::size_t>(layer)];
-      score.absorption -= flown * absorption / isotropic;
-      score.scattering -= flown;
-      const double lost = flown * absorption * anisotropy * anisotropy;
-      for (std::size_t i = 0; i < 3; ++i) scores.absorption_anisotropy[i] += lost * slope[i];
-      scores.lowest = std::min(scores.lowest, layer);
-      scores.highest = std::max(scores.highest, layer);
-      visit(layer, flown);
-    });
-  }
-
-  void score_piece(const Photon& photon, const Piece& piece, Trace& trace) const {
-    trace.last_piece.clear();
+  void record_flight(const Photon& photon, const Piece& piece, double length, PathRecord& record) const {
+    record.begin_piece(flow_components(photon.direction), ice_.absorption_anisotropy());
     if (piece.in_column) return;
-    score_flight(photon, piece.length, trace.scores, [&](int layer, double length) {
-      trace.last_piece.push_back({layer, length});
+    piece_in_ice(photon, length, [&](int layer, double flown, double isotropic, double absorption) {
+      record.fly(layer, flown, isotropic, absorption);
     });
-    if (piece.end == Piece::End::scatter)
-      trace.scores.layers[static_cast<std::size_t>(piece.layer)].scattering +=
-          1 / scattering_of(photon, piece.layer);
   }
 
-  void score_hit(const Photon& photon, const Piece& piece, double distance, const SimulatedHit& hit,
-                 const Trace& trace) const {
-    PathScores scores = trace.scores;
-    if (!piece.in_column) score_flight(photon, distance, scores, [](int, double) {});
-    trace.sink(hit, scores);
+  void record_piece(const Photon& photon, const Piece& piece, PathRecord& record) const {
+    record_flight(photon, piece, piece.length, record);
+    if (piece.end == Piece::End::scatter && !piece.in_column)
+      record.scatter(piece.layer, scattering_of(photon, piece.layer));
   }
 
-  // Of the widths, whose squares grow with the diffusion strength integrated along the piece, V, from the
-  // normals g: (g^2 - 1)/(2V) each; of the mean, in units of the width.
-  static void score_birefringence(const Piece& piece, double squares, int normals, double mean_pull,
-                                  Trace& trace) {
-    if (!(piece.diffusion > 0)) return;
-    const double diffusion = (squares - normals) / (2 * piece.diffusion);
-    const double deflection = mean_pull / std::sqrt(piece.diffusion);
-    for (const auto& [layer, length] : trace.last_piece) {
-      PathScores::Layer& score = trace.scores.layers[static_cast<std::size_t>(layer)];
-      score.diffusion += length * diffusion;
-      score.deflection += length * deflection;
-    }
+  void tell_hit(const Photon& photon, const Piece& piece, double distance, const SimulatedHit& hit,
+                const Trace& trace) const {
+    PathRecord record = trace.record;
+    record_flight(photon, piece, distance, record);
+    trace.sink(hit, record.scores());
   }
 
-  void birefringent_step(Photon& photon, const Piece& piece, RandomStream& random, Trace* trace) const {
+  void birefringent_step(Photon& photon, const Piece& piece, RandomStream& random, Task& task) const {
     if (!ice_.birefringence()) return;
     const BirefringenceNumbers& numbers = *ice_.birefringence();
     const auto [g1, g2] = gaussian_pair(random);
@@ -344,10 +302,10 @@ class PlainWalker : public PhotonWalker, public PathTracer {
         frame, width * one_metre.sigma_x, width * one_metre.sigma_y, drift * one_metre.mean_x, g1, g2, g3, g4,
         numbers.displacement ? piece.length : 0.0, n.x(), n.y(), n.z(), r.x(), r.y(), r.z());
     n.normalize();
-    if (!trace || !numbers.diffusion) return;  // without widths there is nothing to weight
+    if (!task.trace || !numbers.diffusion) return;  // without widths there is nothing to weight
     const bool both = numbers.displacement;
-    score_birefringence(piece, g1 * g1 + g2 * g2 + (both ? g3 * g3 + g4 * g4 : 0), both ? 4 : 2,
-                        numbers.deflection ? g1 * one_metre.mean_x / one_metre.sigma_x : 0, *trace);
+    task.trace->record.turn(piece.diffusion, g1 * g1 + g2 * g2 + (both ? g3 * g3 + g4 * g4 : 0), both ? 4 : 2,
+                            numbers.deflection ? g1 * one_metre.mean_x / one_metre.sigma_x : 0);
   }
 
   void scatter(Photon& photon, const Piece& piece, RandomStream& random) const {

@@ -58,7 +58,7 @@ void add_run(const RunLight& light, const RunCounts& counts, int nuisance, Score
   for (int fold = 0; fold < 2; ++fold) {
     const int other = 1 - fold;
     gap += weight[fold].transpose() * (trust * (counts.data.array() - expected[other])).matrix() / 2;
-    slope += weight[fold].transpose() * (trust * expected[other]).matrix().asDiagonal() * slopes[other] / 2;
+    slope += weight[fold].transpose() * (trust * expected[other]).matrix().asDiagonal() * weight[other] / 2;
     add_noise(weight[fold] / 2, counts.dispersion * counts.scale * expected[other]);
   }
   add_noise((weight[0] + weight[1]) / 2, counts.data_dispersion * mu + known * mu.square());
