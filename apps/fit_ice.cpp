@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <memory>
+#include <tuple>
 
 #include "apps/commands.h"
 #include "apps/common_options.h"
-#include "apps/flasher_data_file.h"
+#include "apps/flasher_input.h"
 #include "apps/ice_fit_output.h"
 #include "apps/option_values.h"
 #include "apps/progress_bar.h"
@@ -41,14 +42,7 @@ DepthRange depth_range(const FitIceCommand& command, const Detector& detector, c
     range.bottom = std::max(range.bottom, origin_depth - z + beyond_flashers);
   }
   if (!command.depths) return range;
-  const std::vector<std::string> parts = split_list(*command.depths);
-  if (parts.size() != 2)
-    throw UsageError(fmt::format("--depths: found \"{}\"; expected TOP,BOTTOM in metres", *command.depths));
-  range.top = parse_option_number("--depths", parts[0], {0, 5000});
-  range.bottom = parse_option_number("--depths", parts[1], {0, 5000});
-  if (range.bottom <= range.top)
-    throw UsageError(
-        fmt::format("--depths: found \"{}\"; expected the shallower depth first", *command.depths));
+  std::tie(range.top, range.bottom) = parse_depths(*command.depths);
   return range;
 }
 
@@ -64,15 +58,10 @@ void expect_ice_only(const IceParameter& parameter, const Model& base) {
 
 std::vector<IceParameter> parameters_of(const FitIceCommand& command, const Model& base,
                                         const DepthRange& range) {
-  const std::pair<const char*, LayerFamily> families[] = {{"absorption", LayerFamily::absorption},
-                                                          {"scattering", LayerFamily::scattering},
-                                                          {"birefringence", LayerFamily::birefringence}};
   std::vector<IceParameter> parameters;
   for (const std::string& name : command.fit) {
-    const auto family = std::find_if(std::begin(families), std::end(families),
-                                     [&](const auto& f) { return name == f.first; });
-    if (family != std::end(families)) {
-      const auto layers = layer_parameters(family->second, range);
+    if (const auto family = layer_family_of(name)) {
+      const auto layers = layer_parameters(*family, range);
       parameters.insert(parameters.end(), layers.begin(), layers.end());
     } else {
       parameters.push_back(effect_parameter(name, base));
@@ -92,7 +81,7 @@ void run_fit_ice(const FitIceCommand& command) {
   options.oversize = command.run.oversize;
   AtomicFolder folder(command.folder);
   PlannedOutput json(command.output.json);
-  const std::vector<Event> events = read_flasher_events(command.data);
+  const std::vector<Event> events = read_flasher_file(command.data);
   const Model base = load_model(command.model);
   FlasherData data = flasher_data(*base.detector, events);
   const auto parameters = parameters_of(command, base, depth_range(command, *base.detector, data));

@@ -108,6 +108,14 @@ std::string ice_fit_table(const IceFitReport& report) {
                             fit.converged ? "" : "; the last step was not yet small");
 }
 
+Json to_json(const RunResult& run) {
+  return {{"run", run.name},
+          {"brightness_photons", run.brightness},
+          {"time_zero_ns", run.time_zero},
+          {"neg_llh", run.neg_llh},
+          {"bins", run.bins}};
+}
+
 Json ice_fit_json(const IceFitReport& report) {
   const IceFit& fit = report.fit;
   Json json = {{"command", report.command},
@@ -137,12 +145,7 @@ Json ice_fit_json(const IceFitReport& report) {
     }
     json["correlation"].push_back(row);
   }
-  for (const RunResult& run : fit.runs)
-    json["runs"].push_back({{"run", run.name},
-                            {"brightness_photons", run.brightness},
-                            {"time_zero_ns", run.time_zero},
-                            {"neg_llh", run.neg_llh},
-                            {"bins", run.bins}});
+  for (const RunResult& run : fit.runs) json["runs"].push_back(to_json(run));
   return json;
 }
 

@@ -5,7 +5,7 @@
 
 #include "apps/commands.h"
 #include "apps/common_options.h"
-#include "apps/flasher_data_file.h"
+#include "apps/flasher_input.h"
 #include "apps/model_json.h"
 #include "apps/option_values.h"
 #include "apps/planned_output.h"
@@ -70,7 +70,7 @@ void run_ladder(const LadderCommand& command) {
   options.fit.threads = command.run.threads;
   options.fit.oversize = command.run.oversize;
   PlannedOutput json(command.output.json);
-  const std::vector<Event> events = read_flasher_events(command.data);
+  const std::vector<Event> events = read_flasher_file(command.data);
   const Model base = load_model(command.model);
   const FlasherData data = flasher_data(*base.detector, events);
   Ladder ladder;
@@ -80,14 +80,14 @@ void run_ladder(const LadderCommand& command) {
   }
   Json result = {{"version", FLOE_VERSION},     {"base", to_json(command.model)},
                  {"base_model", to_json(base)}, {"data", command.data},
-                 {"left_out", data.left_out},   {"seed", options.fit.seed},
+                 {"left_out", ladder.left_out}, {"seed", options.fit.seed},
                  {"runs", ladder.runs},         {"best", ladder.rungs[ladder.best()].name},
                  {"models", Json::array()}};
   for (std::size_t i = 0; i < ladder.rungs.size(); ++i) result["models"].push_back(rung_json(ladder, i));
   json.write(json_text(result));
   json.commit();
   if (command.output.quiet) return;
-  for (const std::string& sentence : data.left_out) fmt::print("left out: {}\n", sentence);
+  for (const std::string& sentence : ladder.left_out) fmt::print("left out: {}\n", sentence);
   fmt::print("{}", ladder_table(ladder));
 }
 

@@ -6,14 +6,13 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
-#include <map>
 
 #include "data/base/error.h"
 #include "reco/direct_fit/constrained_score.h"
+#include "reco/figures/contours.h"
 
 namespace floe {
 namespace {
@@ -133,93 +132,6 @@ double half_width(const ScoreLikelihood& likelihood) {
   return std::min(half_width_in_errors * std::sqrt(axes.eigenvalues().maxCoeff()), farthest.maxCoeff());
 }
 
-// --- contours
-
-// Where a contour crosses the side of a cell, named by the side: 2 x pixel for the side to the next column,
-// 2 x pixel + 1 for that to the next row.
-using Crossing = int;
-
-class ContourFinder {
- public:
-  ContourFinder(const SkyMap& map, double level) : map_(map), level_(level) {
-    for (int row = 0; row + 1 < map.pixels; ++row)
-      for (int column = 0; column + 1 < map.pixels; ++column) cross_cell(row, column);
-  }
-
-  std::vector<std::vector<TangentPoint>> lines() {
-    std::vector<std::vector<TangentPoint>> result;
-    // First those with ends: what is left then are rings.
-    std::vector<Crossing> ends, all;
-    for (const auto& [crossing, next] : links_) {
-      all.push_back(crossing);
-      if (next.size() == 1) ends.push_back(crossing);
-    }
-    for (const std::vector<Crossing>& beginnings : {ends, all})
-      for (const Crossing crossing : beginnings)
-        if (!links_[crossing].empty()) result.push_back(line_from(crossing));
-    return result;
-  }
-
- private:
-  bool inside(double value) const { return value < level_; }
-
-  void cross_cell(int row, int column) {
-    const std::array<double, 4> corners{map_.at(row, column), map_.at(row, column + 1),
-                                        map_.at(row + 1, column + 1), map_.at(row + 1, column)};
-    const int first = row * map_.pixels + column, below = first + map_.pixels;
-    const std::array<Crossing, 4> sides{2 * first, 2 * (first + 1) + 1, 2 * below, 2 * first + 1};
-    double sum = 0;
-    std::vector<Crossing> crossed;
-    for (std::size_t i = 0; i < 4; ++i) {
-      sum += corners[i];
-      if (inside(corners[i]) != inside(corners[(i + 1) % 4])) crossed.push_back(sides[i]);
-    }
-    if (!std::isfinite(sum)) return;
-    if (crossed.size() == 2) link(crossed[0], crossed[1]);
-    if (crossed.size() < 4) return;
-    // A saddle: the middle belongs to the first corner and the one across, or to the other two.
-    const bool with_first = inside(sum / 4) == inside(corners[0]);
-    link(crossed[0], crossed[with_first ? 1 : 3]);
-    link(crossed[2], crossed[with_first ? 3 : 1]);
-  }
-
-  void link(Crossing a, Crossing b) {
-    links_[a].push_back(b);
-    links_[b].push_back(a);
-  }
-
-  void unlink(Crossing from, Crossing to) {
-    std::vector<Crossing>& next = links_[from];
-    next.erase(std::find(next.begin(), next.end(), to));
-  }
-
-  // Follows the links until there are none, and takes them away.
-  std::vector<TangentPoint> line_from(Crossing crossing) {
-    std::vector<TangentPoint> line{place_of(crossing)};
-    while (!links_[crossing].empty()) {
-      const Crossing next = links_[crossing].front();
-      unlink(crossing, next);
-      unlink(next, crossing);
-      crossing = next;
-      line.push_back(place_of(crossing));
-    }
-    return line;
-  }
-
-  TangentPoint place_of(Crossing crossing) const {
-    const int pixel = crossing / 2, row = pixel / map_.pixels, column = pixel % map_.pixels;
-    const int down = crossing % 2, right = 1 - down;
-    const double here = map_.at(row, column), there = map_.at(row + down, column + right);
-    const double share = (level_ - here) / (there - here);
-    const auto [x, y] = map_.point_at(row, column);
-    return {x + right * share * map_.step, y + down * share * map_.step};
-  }
-
-  const SkyMap& map_;
-  double level_;
-  std::map<Crossing, std::vector<Crossing>> links_;  // of every crossing to those of the same cells
-};
-
 }  // namespace
 
 double level_of(double share) {
@@ -293,7 +205,14 @@ SkyMap make_sky_map(const ScoreLikelihood& likelihood, int pixels, int threads) 
 }
 
 std::vector<std::vector<TangentPoint>> contours(const SkyMap& map, double level) {
-  return ContourFinder(map, level).lines();
+  const double middle = map.pixels / 2;
+  std::vector<std::vector<TangentPoint>> result;
+  for (const auto& line : contour_lines({map.pixels, map.pixels, map.delta_neg_llh}, level)) {
+    result.emplace_back();
+    for (const auto& [column, row] : line)
+      result.back().emplace_back((column - middle) * map.step, (row - middle) * map.step);
+  }
+  return result;
 }
 
 std::string words_of_area(const SkyMap& map, double share) {

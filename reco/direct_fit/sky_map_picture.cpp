@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "reco/figures/map_marks.h"
 #include "reco/figures/svg.h"
 
 namespace floe {
@@ -16,7 +17,6 @@ constexpr double bar_gap = 26, bar_width = 18;
 constexpr const char* grey = "#666666";
 constexpr const char* red = "#d1495b";
 constexpr const char* unknown_colour = "#e4e4e4";
-const Stroke frame_stroke{"#444444", 1, ""};
 
 struct ContourStyle {
   double share;
@@ -30,15 +30,7 @@ const double shade_range = 1.25 * level_of(0.99);  // range of the shades in del
 // From dark at the best to white.
 std::string shade_of(double delta) {
   if (!std::isfinite(delta)) return unknown_colour;
-  constexpr std::array<std::array<double, 3>, 4> shades{
-      {{58, 124, 178}, {126, 177, 213}, {198, 219, 239}, {255, 255, 255}}};
-  const double place = std::clamp(delta / shade_range, 0.0, 1.0) * (shades.size() - 1);
-  const std::size_t i = std::min(static_cast<std::size_t>(place), shades.size() - 2);
-  const double share = place - static_cast<double>(i);
-  const auto part = [&](std::size_t k) {
-    return static_cast<int>(std::lround((1 - share) * shades[i][k] + share * shades[i + 1][k]));
-  };
-  return fmt::format("#{:02x}{:02x}{:02x}", part(0), part(1), part(2));
+  return map_shade(delta / shade_range);
 }
 
 // From the map to pixels of the picture; the map's own pixels are whole ones of the picture, or seams show.
@@ -90,26 +82,10 @@ void draw_contours(Svg& svg, const Panel& panel, const SkyMap& map) {
   }
 }
 
-void draw_cross(Svg& svg, const Svg::Point& place) {
-  const auto [x, y] = place;
-  svg.line({x - 7, y}, {x + 7, y}, {"#ffffff", 2, ""});
-  svg.line({x, y - 7}, {x, y + 7}, {"#ffffff", 2, ""});
-  svg.line({x - 6, y}, {x + 6, y}, {"#10202c", 1.2, ""});
-  svg.line({x, y - 6}, {x, y + 6}, {"#10202c", 1.2, ""});
-}
-
 void draw_truth(Svg& svg, const Svg::Point& place) {
   const auto [x, y] = place;
   svg.line({x - 5, y - 5}, {x + 5, y + 5}, {red, 2.4, ""});
   svg.line({x - 5, y + 5}, {x + 5, y - 5}, {red, 2.4, ""});
-}
-
-void draw_frame(Svg& svg, const Panel& panel) {
-  const double end = left + panel.width, low = top + panel.width;
-  svg.line({left, top}, {end, top}, frame_stroke);
-  svg.line({end, top}, {end, low}, frame_stroke);
-  svg.line({end, low}, {left, low}, frame_stroke);
-  svg.line({left, low}, {left, top}, frame_stroke);
 }
 
 void draw_axes(Svg& svg, const Panel& panel, const SkyMap& map) {
@@ -133,10 +109,7 @@ void draw_colour_bar(Svg& svg, const Panel& panel, const SkyMap& map) {
   for (int i = 0; i < map.pixels; ++i)
     svg.rectangle({x, low - panel.side * (i + 1)}, bar_width, panel.side,
                   shade_of((i + 0.5) / map.pixels * shade_range));
-  svg.line({x, top}, {end, top}, frame_stroke);
-  svg.line({end, top}, {end, low}, frame_stroke);
-  svg.line({end, low}, {x, low}, frame_stroke);
-  svg.line({x, low}, {x, top}, frame_stroke);
+  draw_frame(svg, {x, top}, bar_width, panel.width);
   for (const double tick : round_ticks(0, shade_range, 6)) {
     svg.line({end, height_of(tick)}, {end + 5, height_of(tick)}, frame_stroke);
     svg.text({end + 8, height_of(tick) + 4}, fmt::format("{:g}", tick), 11, Anchor::start, grey);
@@ -184,7 +157,7 @@ std::string figure_of_sky_map(const SkyMap& map, const std::string& title,
   draw_cross(svg, panel.at({0, 0}));
   const bool true_inside = truth && panel.holds(panel.at(map.point_of(*truth)));
   if (true_inside) draw_truth(svg, panel.at(map.point_of(*truth)));
-  draw_frame(svg, panel);
+  draw_frame(svg, {left, top}, panel.width, panel.width);
   draw_axes(svg, panel, map);
   draw_colour_bar(svg, panel, map);
   draw_legend(svg, panel, true_inside,

@@ -10,21 +10,19 @@
 #include "reco/ice_fit/ice_solution.h"
 #include "reco/ice_fit/run_light.h"
 #include "reco/ice_fit/run_likelihood.h"
+#include "reco/ice_fit/run_plan.h"
 #include "reco/ice_fit/score_system.h"
 
 namespace floe {
 
 namespace {
 
-constexpr double scout_share = 0.1;    // of a run's light: where to put the bins
-constexpr double first_photons = 3e8;  // N of the first look at a run
-constexpr double longest_step = 0.7;   // of a round, in the logarithm
+constexpr double longest_step = 0.7;  // of a round, in the logarithm
 // Steps so small, in their errors, are the last: root mean square and largest. New simulations in every round
 // keep them from getting much smaller.
 constexpr double settled = 0.8, settled_most = 2.5;
 // Differences, in the parameter's scale: for weights, which are exact, and between simulations.
 constexpr double weight_step = 1e-3, pair_step = 0.5;
-constexpr double saturation = 500;  // photoelectrons of a flash
 constexpr std::uint64_t streams_a_run = 1 << 10, streams_a_round = 1 << 20;
 
 // What is known of a run between rounds.
@@ -88,37 +86,25 @@ class Fit {
 
   // How much light of each run is seen, in the starting model, and which receivers cannot be right.
   void look_first() {
-    const Model model = this->model();
-    leave_out_bright_receivers(*model.detector, saturation, data_);
-    std::vector<SimulatedRun> looks;
-    std::vector<std::vector<double>> expected;
-    for (std::size_t r = 0; r < states_.size(); ++r) {
-      const RunData& run = data_.runs[r];
-      looks.push_back(simulate_run(model, request(r, 0, first_photons)));
-      fit_.photons += looks.back().propagated;
-      const double hits = std::max(1.0, used_hits(looks.back(), run));
-      expected.emplace_back(run.used.size(), 0.0);
-      for (const SimulatedHit& hit : looks.back().hits) expected.back()[hit.module] += run.charge / hits;
-    }
-    leave_out_bad_receivers(*model.detector, expected, saturation, data_);
+    const FirstLook look = floe::look_first(
+        model(), [this](std::size_t r, double photons) { return request(r, 0, photons); }, data_);
+    fit_.photons += look.propagated;
     fit_.left_out = data_.left_out;
     for (std::size_t r = 0; r < states_.size(); ++r) {
-      states_[r].hits_per_photon = std::max(1.0, used_hits(looks[r], data_.runs[r])) / first_photons;
+      states_[r].hits_per_photon = look.hits_per_photon[r];
       states_[r].brightness = data_.runs[r].charge / states_[r].hits_per_photon;
     }
   }
 
   double photons_of(std::size_t r) const {
-    const double hits = std::max(options_.least_hits, options_.light * data_.runs[r].charge);
-    return std::min(options_.most_photons, hits / states_[r].hits_per_photon);
+    return photons_wanted(data_.runs[r], states_[r].hits_per_photon,
+                          {options_.light, options_.least_hits, options_.most_photons});
   }
 
   RunBins bins_of(const Model& model, std::size_t r) {
-    const RunData& run = data_.runs[r];
-    const double photons = scout_share * photons_of(r);
-    const SimulatedRun scout = simulate(model, request(r, 1, photons), states_[r].time_zero);
-    fit_.photons += scout.propagated;
-    return RunBins(scout.hits, states_[r].brightness / photons, run.used, {});
+    const Scout scout = scout_run(model, request(r, 1, photons_of(r)), states_[r].time_zero);
+    fit_.photons += scout.simulated.propagated;
+    return floe::bins_of(scout, data_.runs[r], states_[r].brightness);
   }
 
   ScoreMap scores_of(const Model& model, double wavelength, std::vector<int>& pairs) const {

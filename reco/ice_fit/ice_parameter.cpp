@@ -21,14 +21,27 @@ struct FamilyTraits {
   void (*scale)(const IceTables& ice, IceLayerRow& row, double factor);
 };
 
+// In the order of LayerFamily.
+const FamilyTraits families[] = {
+    {"absorption", 0.1, 10, scale_absorption},
+    {"scattering", 0.1, 10,
+     [](const IceTables&, IceLayerRow& row, double factor) { scale_scattering(row, factor); }},
+    {"birefringence", 0.02, 20,
+     [](const IceTables&, IceLayerRow& row, double factor) { row.birefringence_strength *= factor; }}};
+
 const FamilyTraits& traits_of(LayerFamily family) {
-  static const FamilyTraits traits[] = {
-      {"absorption", 0.1, 10, scale_absorption},
-      {"scattering", 0.1, 10,
-       [](const IceTables&, IceLayerRow& row, double factor) { scale_scattering(row, factor); }},
-      {"birefringence", 0.02, 20,
-       [](const IceTables&, IceLayerRow& row, double factor) { row.birefringence_strength *= factor; }}};
-  return traits[static_cast<int>(family)];
+  return families[static_cast<int>(family)];
+}
+
+// A factor of this family without what it applies to.
+IceParameter factor_of(const FamilyTraits& traits, double depth) {
+  IceParameter parameter;
+  parameter.family = traits.name;
+  parameter.depth = depth;
+  parameter.logarithmic = true;
+  parameter.low = std::log(traits.least);
+  parameter.high = std::log(traits.most);
+  return parameter;
 }
 
 int group_of(double depth, const DepthRange& range) {
@@ -43,13 +56,8 @@ std::vector<IceParameter> layer_parameters(LayerFamily family, const DepthRange&
   std::vector<IceParameter> parameters;
   for (int group = 0; group < range.groups; ++group) {
     const double depth = range.top + (group + 0.5) * (range.bottom - range.top) / range.groups;
-    IceParameter parameter;
+    IceParameter parameter = factor_of(traits, depth);
     parameter.name = fmt::format("{} {:.0f} m", traits.name, depth);
-    parameter.family = traits.name;
-    parameter.depth = depth;
-    parameter.logarithmic = true;
-    parameter.low = std::log(traits.least);
-    parameter.high = std::log(traits.most);
     parameter.apply = [&traits, range, group, family](double number, ModelParts& model) {
       auto& numbers = model.ice.configuration.birefringence;
       if (family == LayerFamily::birefringence && !numbers) numbers = published_birefringence();
@@ -59,6 +67,36 @@ std::vector<IceParameter> layer_parameters(LayerFamily family, const DepthRange&
     parameters.push_back(std::move(parameter));
   }
   return parameters;
+}
+
+std::optional<LayerFamily> layer_family_of(std::string_view name) {
+  const auto found = std::find_if(std::begin(families), std::end(families),
+                                  [&](const FamilyTraits& traits) { return name == traits.name; });
+  if (found == std::end(families)) return {};
+  return static_cast<LayerFamily>(found - std::begin(families));
+}
+
+IceParameter layer_factor(LayerFamily family, double top, double bottom, const Model& base) {
+  const FamilyTraits& traits = traits_of(family);
+  const auto inside = [top, bottom](const IceLayerRow& row) {
+    return row.depth >= top && row.depth <= bottom;
+  };
+  const IceTables& tables = base.ice->tables();
+  if (std::none_of(tables.layers.begin(), tables.layers.end(), inside))
+    throw UsageError(fmt::format("{}: the layer table of {} has no row from {:g} to {:g} m", traits.name,
+                                 base.ice->name(), top, bottom));
+  if (family == LayerFamily::birefringence && !tables.configuration.birefringence)
+    throw UsageError(
+        fmt::format("birefringence: {} has none that a factor could change; expected "
+                    "birefringence.strength, or ice with birefringence",
+                    base.ice->name()));
+  IceParameter parameter = factor_of(traits, (top + bottom) / 2);
+  parameter.name = fmt::format("{} {:g}-{:g} m", traits.name, top, bottom);
+  parameter.apply = [&traits, inside](double number, ModelParts& model) {
+    for (IceLayerRow& row : model.ice.layers)
+      if (inside(row)) traits.scale(model.ice, row, std::exp(number));
+  };
+  return parameter;
 }
 
 IceParameter effect_parameter(std::string_view name, const Model& base) {

@@ -40,6 +40,12 @@ struct DepthRange {
 // or birefringence (strength; a model without birefringence starts from the published numbers at strength 1).
 enum class LayerFamily { absorption, scattering, birefringence };
 std::vector<IceParameter> layer_parameters(LayerFamily family, const DepthRange& range);
+// "absorption", "scattering", "birefringence"; none for any other name.
+std::optional<LayerFamily> layer_family_of(std::string_view name);
+// One factor for the rows of the layer table from depth `top` to depth `bottom` [m], both inclusive; rows
+// beyond stay as they are. Throws UsageError when the model has no row there, and for the birefringence of a
+// model without it: published numbers would come with strength in all its rows.
+IceParameter layer_factor(LayerFamily family, double top, double bottom, const Model& base);
 
 // A parameter of an effect of the catalogue, "EFFECT.PARAMETER", or "EFFECT" alone where it has but one. It
 // starts at its value in the model. Throws UsageError for unknown names, and for parameters that name a

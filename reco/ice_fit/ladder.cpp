@@ -8,14 +8,15 @@
 
 #include "data/base/error.h"
 #include "reco/ice_fit/run_likelihood.h"
+#include "reco/ice_fit/run_plan.h"
 
 namespace floe {
 
 namespace {
 
-constexpr double first_photons = 3e8;  // N of the first look at a run
-constexpr int rounds_of_folds = 3;     // they start where the fit to all runs ended
-constexpr std::uint64_t scout_stream = std::uint64_t{1} << 60, held_out_stream = std::uint64_t{1} << 61;
+constexpr int rounds_of_folds = 3;  // they start where the fit to all runs ended
+constexpr std::uint64_t first_stream = std::uint64_t{1} << 59, scout_stream = std::uint64_t{1} << 60,
+                        held_out_stream = std::uint64_t{1} << 61;
 
 struct RungPlan {
   const char* name;
@@ -65,6 +66,7 @@ class Climb {
     plan_measure();
     Ladder ladder;
     for (const RunData& run : data_.runs) ladder.runs.push_back(run.name);
+    ladder.left_out = data_.left_out;
     const Model bare = isotropic(base_);
     for (const RungPlan& plan : plans()) ladder.rungs.push_back(rung(plan, bare));
     return ladder;
@@ -77,13 +79,15 @@ class Climb {
   }
 
   void plan_measure() {
+    const FirstLook look = look_first(
+        base_, [this](std::size_t r, double photons) { return request(r, first_stream, photons); }, data_);
     for (std::size_t r = 0; r < data_.runs.size(); ++r) {
       const RunData& run = data_.runs[r];
-      const SimulatedRun look = simulate_run(base_, request(r, scout_stream, first_photons));
-      const double each = std::max(1.0, used_hits(look, run)) / first_photons;
-      const double wanted = std::max(options_.fit.least_hits, options_.fit.light * run.charge) / each;
-      measure_.photons.push_back(std::min(options_.fit.most_photons, wanted));
-      measure_.bins.emplace_back(look.hits, run.charge / (each * first_photons), run.used, RunBins::Rules{});
+      const double each = look.hits_per_photon[r];
+      measure_.photons.push_back(photons_wanted(
+          run, each, {options_.fit.light, options_.fit.least_hits, options_.fit.most_photons}));
+      const Scout scout = scout_run(base_, request(r, scout_stream, measure_.photons[r]), 0);
+      measure_.bins.push_back(bins_of(scout, run, run.charge / each));
     }
   }
 
@@ -132,7 +136,7 @@ class Climb {
   }
 
   const Model& base_;
-  const FlasherData& data_;
+  FlasherData data_;
   const LadderOptions& options_;
   const Progress& progress_;
   Measure measure_;

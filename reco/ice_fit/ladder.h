@@ -22,9 +22,10 @@ struct LadderRung {
 };
 
 struct Ladder {
-  std::vector<std::string> runs;  // names, in the order of held_out
-  std::vector<LadderRung> rungs;  // from the plainest up
-  std::size_t best() const;       // least held-out -ln L
+  std::vector<std::string> runs;      // names, in the order of held_out
+  std::vector<std::string> left_out;  // of the data, a sentence each
+  std::vector<LadderRung> rungs;      // from the plainest up
+  std::size_t best() const;           // least held-out -ln L
   // How much worse a rung is than the best, and the standard error of that: from the scatter over runs.
   struct Gap {
     double value = 0, error = 0;

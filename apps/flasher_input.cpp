@@ -1,0 +1,30 @@
+#include "apps/flasher_input.h"
+
+#include <fmt/format.h>
+
+#include "apps/option_values.h"
+#include "data/base/error.h"
+#include "data/event_files.h"
+#include "data/flasher_text.h"
+
+namespace floe {
+
+std::vector<Event> read_flasher_file(const std::string& file) {
+  if (file.ends_with(".h5")) return read_event_file(file).events;
+  std::vector<Event> events;  // texts of flasher runs have lines that say where each begins
+  for_each_flasher_run(file, [&](const Event& event) { events.push_back(event); });
+  return events;
+}
+
+std::pair<double, double> parse_depths(const std::string& text) {
+  const std::vector<std::string> parts = split_list(text);
+  if (parts.size() != 2)
+    throw UsageError(fmt::format("--depths: found \"{}\"; expected TOP,BOTTOM in metres", text));
+  const double top = parse_option_number("--depths", parts[0], {0, 5000});
+  const double bottom = parse_option_number("--depths", parts[1], {0, 5000});
+  if (bottom <= top)
+    throw UsageError(fmt::format("--depths: found \"{}\"; expected the shallower depth first", text));
+  return {top, bottom};
+}
+
+}  // namespace floe

@@ -1,0 +1,52 @@
+#include "reco/ice_fit/run_plan.h"
+
+#include <algorithm>
+
+#include "reco/ice_fit/run_likelihood.h"
+
+namespace floe {
+
+namespace {
+
+constexpr double scout_share = 0.1;    // of a run's light: where to put the bins
+constexpr double first_photons = 3e8;  // N of the first look at a run
+constexpr double saturation = 500;     // photoelectrons of a flash
+
+}  // namespace
+
+FirstLook look_first(const Model& model, const RequestOfRun& request, FlasherData& data) {
+  leave_out_bright_receivers(*model.detector, saturation, data);
+  FirstLook look;
+  std::vector<SimulatedRun> simulated;
+  std::vector<std::vector<double>> expected;
+  for (std::size_t r = 0; r < data.runs.size(); ++r) {
+    const RunData& run = data.runs[r];
+    simulated.push_back(simulate_run(model, request(r, first_photons)));
+    look.propagated += simulated.back().propagated;
+    const double hits = std::max(1.0, used_hits(simulated.back(), run));
+    expected.emplace_back(run.used.size(), 0.0);
+    for (const SimulatedHit& hit : simulated.back().hits) expected.back()[hit.module] += run.charge / hits;
+  }
+  leave_out_bad_receivers(*model.detector, expected, saturation, data);
+  for (std::size_t r = 0; r < data.runs.size(); ++r)
+    look.hits_per_photon.push_back(std::max(1.0, used_hits(simulated[r], data.runs[r])) / first_photons);
+  return look;
+}
+
+double photons_wanted(const RunData& run, double hits_per_photon, const LightBudget& budget) {
+  const double hits = std::max(budget.least_hits, budget.light * run.charge);
+  return std::min(budget.most_photons, hits / hits_per_photon);
+}
+
+Scout scout_run(const Model& model, RunRequest request, double time_zero) {
+  request.photons *= scout_share;
+  Scout scout{simulate_run(model, request), request.photons};
+  delay(scout.simulated, time_zero);
+  return scout;
+}
+
+RunBins bins_of(const Scout& scout, const RunData& run, double brightness) {
+  return RunBins(scout.simulated.hits, brightness / scout.photons, run.used, {});
+}
+
+}  // namespace floe

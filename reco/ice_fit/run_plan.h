@@ -1,0 +1,46 @@
+// How much light of each run is simulated, and in which bins it is compared: the same for fits and scans.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "propagation/model.h"
+#include "reco/ice_fit/run_bins.h"
+#include "reco/ice_fit/run_data.h"
+#include "reco/ice_fit/run_light.h"
+
+namespace floe {
+
+// How run number `run` is simulated with this N. Of the first look, the bins and what is compared with the
+// data, each must have streams of its own.
+using RequestOfRun = std::function<RunRequest(std::size_t run, double photons)>;
+
+struct FirstLook {
+  std::vector<double> hits_per_photon;  // by run: simulated hits of used receivers for N = 1, above 0
+  std::uint64_t propagated = 0;
+};
+
+// Simulates a little of every run, and leaves out receivers that cannot be right (leave_out_bad_receivers).
+FirstLook look_first(const Model& model, const RequestOfRun& request, FlasherData& data);
+
+struct LightBudget {
+  double light = 5;            // simulated light, in units of the data's, at least
+  double least_hits = 3e4;     // simulated hits of a run, at least
+  double most_photons = 2e11;  // N of a run's simulation, at most
+};
+
+// N of a run's simulation.
+double photons_wanted(const RunData& run, double hits_per_photon, const LightBudget& budget);
+
+// What tells a run's bins: a simulation of a share of its light, `request.photons` being all of it, moved by
+// `time_zero` [ns]. It favours no data, and is independent of simulations with other streams.
+struct Scout {
+  SimulatedRun simulated;
+  double photons = 0;  // N
+};
+Scout scout_run(const Model& model, RunRequest request, double time_zero);
+// `brightness`: expected counts of the data, all flashes together, for a simulated hit of N = 1.
+RunBins bins_of(const Scout& scout, const RunData& run, double brightness);
+
+}  // namespace floe
