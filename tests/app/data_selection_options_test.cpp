@@ -87,17 +87,20 @@ class DataSelectionOptions : public testing::Test {
 TEST_F(DataSelectionOptions, BadModulesAreLeftOutHoweverTheyAreNamed) {
   const std::string bright = name_of(brightest());
   const Json one = fit("--bad " + bright);
-  EXPECT_LT(one["bins"], plain_["bins"]);
   EXPECT_NE(one["x"], plain_["x"]);
   const std::string others = bright == "1,1" ? "2,2;3,3" : "1,1;3,3";
   const Json three = fit("--bad '" + bright + ";" + others + "'");
-  EXPECT_LT(three["bins"], one["bins"]);
+  EXPECT_NE(three["x"], one["x"]);
   EXPECT_EQ(fit("--bad " + bright + " --bad '" + others + "'"), three);
   std::string lines = "# out of order since 2011\n" + bright + "\n" + others + "\n";
   std::replace(lines.begin(), lines.end(), ',', ' ');
   std::replace(lines.begin(), lines.end(), ';', '\n');
   write("bad.txt", lines);
   EXPECT_EQ(fit("--bad bad.txt"), three);
+  // Bins follow the light that was fitted, so that a single module may make no difference; two strings do.
+  std::string strings = "6,1;7,1";
+  for (int dom = 2; dom <= 9; ++dom) strings += ";6," + std::to_string(dom) + ";7," + std::to_string(dom);
+  EXPECT_LT(fit("--bad '" + strings + "'")["bins"], plain_["bins"]);
 }
 
 TEST_F(DataSelectionOptions, WithoutAnyModuleThereIsTooLittleLight) {
