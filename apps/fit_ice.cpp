@@ -12,7 +12,6 @@
 #include "apps/option_values.h"
 #include "apps/progress_bar.h"
 #include "data/base/atomic_folder.h"
-#include "data/base/constants.h"
 #include "data/base/error.h"
 #include "reco/ice_fit/layers_apart.h"
 
@@ -37,9 +36,9 @@ struct FitIceCommand {
 DepthRange depth_range(const FitIceCommand& command, const Detector& detector, const FlasherData& data) {
   DepthRange range{1e9, -1e9, command.layers};
   for (const RunData& run : data.runs) {
-    const double z = detector.modules()[detector.index_of(run.run.module)].position.z();
-    range.top = std::min(range.top, origin_depth - z - beyond_flashers);
-    range.bottom = std::max(range.bottom, origin_depth - z + beyond_flashers);
+    const double depth = flasher_depth(run, detector);
+    range.top = std::min(range.top, depth - beyond_flashers);
+    range.bottom = std::max(range.bottom, depth + beyond_flashers);
   }
   if (!command.depths) return range;
   std::tie(range.top, range.bottom) = parse_depths(*command.depths);
@@ -93,8 +92,7 @@ void run_fit_ice(const FitIceCommand& command) {
                                                                 bar.callback());
   }
   const Model fitted = with_parameters(base, fit.parameters, fit.numbers);
-  const std::vector<std::string> left_out = fit.left_out;
-  const IceFitReport report{command.model,   base,         fitted, std::move(fit), left_out,
+  const IceFitReport report{command.model,   base,         fitted, std::move(fit),
                             command.command, command.data, options};
   write_ice_fit(report, folder.temporary());
   json.write(json_text(ice_fit_json(report)));
@@ -118,8 +116,8 @@ void add_fit_ice(CLI::App& floe, const std::string& command_line) {
   app.add_option_function<std::string>(
          "--fit", [command = command.get()](const std::string& list) { command->fit = split_list(list); },
          "What to fit: absorption, scattering, birefringence (a factor for each layer), and parameters of "
-         "effects "
-         "of the ice, as floe effects lists them")
+         "effects of "
+         "the ice, as floe effects lists them")
       ->type_name("NAME[,NAME]")
       ->default_str("absorption,scattering");
   add_integer(app, "--layers", 1, 1000, "Layers of equal thickness that the depths are divided into",
@@ -132,9 +130,9 @@ void add_fit_ice(CLI::App& floe, const std::string& command_line) {
   app.add_flag("--layer-by-layer", command->layer_by_layer,
                "Fit each layer to the flashers inside it alone, instead of all layers to all flashers");
   add_number(app, "--light", "RATIO", {0.1, 1000}, "Simulated light, in units of the data's",
-             command->options.light);
+             command->options.light.light);
   add_number(app, "--least-hits", "N", {100, 1e8}, "Simulated hits of a run, at least",
-             command->options.least_hits);
+             command->options.light.least_hits);
   add_number(app, "--model-error", "SIGMA", {0, 1},
              "Relative error of the simulation that the fit allows for", command->options.model_error);
   add_number(app, "--smoothness", "SIGMA", {0.001, 100},

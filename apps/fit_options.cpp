@@ -53,14 +53,6 @@ Json other_minimum_json(const OtherMinimum& other) {
   return json;
 }
 
-ModuleId parse_module(const std::string& option, const std::string& text) {
-  const std::vector<std::string> parts = split_list(text);
-  if (parts.size() != 2)
-    throw UsageError(fmt::format("{}: found \"{}\"; expected STRING,DOM, e.g. 63,20", option, text));
-  return {static_cast<int>(parse_option_integer(option, parts[0], 0, 100000)),
-          static_cast<int>(parse_option_integer(option, parts[1], 0, 100000))};
-}
-
 ModuleId module_of(const TextLine& line) {
   return {static_cast<int>(parse_integer(line, 0, "string")),
           static_cast<int>(parse_integer(line, 1, "DOM"))};

@@ -101,7 +101,7 @@ void copy_base(const ModelRequest& request, const fs::path& folder) {
 std::string ice_fit_table(const IceFitReport& report) {
   const IceFit& fit = report.fit;
   std::string text;
-  for (const std::string& sentence : report.left_out) text += "left out: " + sentence + "\n";
+  for (const std::string& sentence : report.fit.left_out) text += "left out: " + sentence + "\n";
   text += layer_table(fit) + other_parameters(fit) + run_table(fit);
   return text + fmt::format("-ln L {:.1f} in {} bins; {} rounds, {:.3g} photons, {:.0f} s{}\n", fit.neg_llh,
                             fit.bins, fit.rounds, static_cast<double>(fit.photons), fit.seconds,
@@ -124,7 +124,7 @@ Json ice_fit_json(const IceFitReport& report) {
                {"base_model", to_json(report.base)},
                {"fitted_model", to_json(report.fitted)},
                {"data", report.data},
-               {"left_out", report.left_out},
+               {"left_out", report.fit.left_out},
                {"seed", report.options.seed},
                {"converged", fit.converged},
                {"rounds", fit.rounds},

@@ -16,7 +16,6 @@ struct IceFitReport {
   ModelRequest base_request;
   Model base, fitted;
   IceFit fit;
-  std::vector<std::string> left_out;  // of the data, a sentence each
   std::string command, data;
   IceFitOptions options;
 };

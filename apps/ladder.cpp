@@ -106,9 +106,9 @@ void add_ladder(CLI::App& floe) {
       [command = command.get()](std::int64_t folds) { command->options.folds = static_cast<int>(folds); })
       ->default_str("2");
   add_number(app, "--light", "RATIO", {0.1, 1000}, "Simulated light, in units of the data's",
-             command->options.fit.light);
+             command->options.fit.light.light);
   add_number(app, "--least-hits", "N", {100, 1e8}, "Simulated hits of a run, at least",
-             command->options.fit.least_hits);
+             command->options.fit.light.least_hits);
   add_number(app, "--model-error", "SIGMA", {0, 1},
              "Relative error of the simulation that likelihoods allow for", command->options.fit.model_error);
   add_simulation_options(app, command->run);

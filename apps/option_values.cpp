@@ -62,6 +62,14 @@ std::vector<std::string> split_list(const std::string& text) {
   return parts;
 }
 
+ModuleId parse_module(const std::string& option, const std::string& text) {
+  const std::vector<std::string> parts = split_list(text);
+  if (parts.size() != 2)
+    throw UsageError(fmt::format("{}: found \"{}\"; expected STRING,DOM, e.g. 63,20", option, text));
+  return {static_cast<int>(parse_option_integer(option, parts[0], 0, 100000)),
+          static_cast<int>(parse_option_integer(option, parts[1], 0, 100000))};
+}
+
 CLI::Option* add_number(CLI::App& app, const std::string& name, const std::string& unit, const Range& range,
                         const std::string& description, std::function<void(double)> set) {
   return app

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "data/module_id.h"
+
 namespace floe {
 
 // Values allowed: low <= value <= high, or low < value when `above_low`.
@@ -26,6 +28,9 @@ std::int64_t parse_option_integer(const std::string& option, const std::string& 
 
 // The parts of "a,b,c"; empty parts are kept, so that they are found and reported.
 std::vector<std::string> split_list(const std::string& text);
+
+// "STRING,DOM".
+ModuleId parse_module(const std::string& option, const std::string& text);
 
 // Adds an option that takes one number; `unit` is shown in the help, `set` receives the value.
 CLI::Option* add_number(CLI::App& app, const std::string& name, const std::string& unit, const Range& range,

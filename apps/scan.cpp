@@ -14,7 +14,6 @@
 #include "apps/planned_output.h"
 #include "apps/progress_bar.h"
 #include "apps/text_table.h"
-#include "data/base/constants.h"
 #include "data/base/error.h"
 #include "reco/ice_fit/scan.h"
 
@@ -31,7 +30,7 @@ struct ScanCommand {
   ModelRequest model;
   std::optional<std::string> depths, picture;
   bool all_runs = false, quiet = false;
-  ScanOptions options;
+  RunSettings options;
   SimulationSettings run;
 };
 
@@ -79,7 +78,7 @@ void leave_out_runs_beyond(const std::pair<double, double>& depths, const Detect
                            FlasherData& data) {
   const auto [top, bottom] = depths;
   const auto removed = std::erase_if(data.runs, [&, top = top, bottom = bottom](const RunData& run) {
-    const double depth = origin_depth - detector.modules()[detector.index_of(run.run.module)].position.z();
+    const double depth = flasher_depth(run, detector);
     return depth < top || depth > bottom;
   });
   if (data.runs.empty())
@@ -179,14 +178,13 @@ void check_usage(const ScanCommand& command, const AxisText& x, const AxisText& 
   if (!x.is_family() && !y.is_family())
     throw UsageError(
         "--depths says where a factor on absorption, scattering or birefringence applies; neither --x nor "
-        "--y "
-        "is one");
+        "--y is one");
 }
 
 void run_scan(const ScanCommand& command) {
   const AxisText x = parse_axis("--x", command.x), y = parse_axis("--y", command.y);
   check_usage(command, x, y);
-  ScanOptions options = command.options;
+  RunSettings options = command.options;
   options.seed = command.run.seed;
   options.threads = command.run.threads;
   options.oversize = command.run.oversize;

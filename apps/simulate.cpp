@@ -54,16 +54,6 @@ std::vector<double> parse_numbers(const std::string& option, const std::string& 
   return numbers;
 }
 
-ModuleId parse_module(const std::string& option, const std::string& text) {
-  const auto parts = split_list(text);
-  if (parts.size() != 2)
-    throw UsageError(fmt::format("{}: found \"{}\"; expected STRING,DOM, e.g. 63,20", option, text));
-  const auto number = [&](const std::string& part) {
-    return static_cast<int>(parse_option_integer(option, part, 0, 100000));
-  };
-  return {number(parts[0]), number(parts[1])};
-}
-
 Cascade parse_cascade(const SimulateOptions& options) {
   const std::string name = "--cascade";
   const auto v = parse_numbers(name, options.cascade_text, 6, "x,y,z[m],zenith,azimuth[deg],energy[GeV]");

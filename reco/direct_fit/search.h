@@ -26,15 +26,16 @@ class Search {
   Search(ExpectationModel& light, const EventData& data, const MeanIce& ice, const FitOptions& options,
          CascadeFit& result, const Progress& progress);
 
-  // Where the search ends. Coarse rounds far apart and with wide modules, fine ones at the wanted oversize;
-  // earlier simulations near by are used again. When a fine round has moved no more than its design is
-  // wide, the calibrated score (reco/direct_fit/calibrated_score.h) makes the last step.
+  // The last step of a search, kept for who wants to know more than its solution.
   struct Calibration {
     EventData data;
     double position_error;
     std::vector<ScoreFold> folds;  // two; they refer to `data` and to the search's simulations
     ScoreSolution solution;
   };
+  // Where the search ends. Coarse rounds far apart and with wide modules, fine ones at the wanted oversize;
+  // earlier simulations near by are used again. When a fine round has moved no more than its design is
+  // wide, the calibrated score (reco/direct_fit/calibrated_score.h) makes the last step.
   struct End {
     LightCentre light;
     Matrix7 covariance;  // of the local numbers around `light`

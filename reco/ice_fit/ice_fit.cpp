@@ -17,7 +17,7 @@ namespace floe {
 
 namespace {
 
-constexpr double longest_step = 0.7;  // of a round, in the logarithm
+constexpr double longest_step = 0.7;  // of a round, in the parameter's scale
 // Steps so small, in their errors, are the last: root mean square and largest. New simulations in every round
 // keep them from getting much smaller.
 constexpr double settled = 0.8, settled_most = 2.5;
@@ -28,19 +28,15 @@ constexpr std::uint64_t streams_a_run = 1 << 10, streams_a_round = 1 << 20;
 // What is known of a run between rounds.
 struct RunState {
   double hits_per_photon = 0;  // simulated, of used receivers
-  double brightness = 1;  // data counts of all flashes for a simulated hit of N = 1: counts/(hits_per_photon)
-  double time_zero = 0;
+  double brightness = 1;       // N of all flashes together
+  double time_zero = 0;        // [ns]
 };
 
 void check(const IceFitOptions& options) {
-  const auto require = [](bool right, const char* what) {
-    if (!right) throw UsageError(what);
-  };
-  require(options.oversize >= 1 && options.oversize <= 100, "the oversize factor must be between 1 and 100");
-  require(options.light > 0, "the simulated light must be more than none of the data's");
-  require(options.model_error >= 0 && options.model_error <= 1, "the model error must be between 0 and 1");
-  require(options.smoothness > 0 && options.amplitude > 0, "the widths of priors must be positive");
-  require(options.most_rounds >= 1, "a fit needs at least one round");
+  check(static_cast<const RunSettings&>(options));
+  if (!(options.smoothness > 0 && options.amplitude > 0))
+    throw UsageError("the widths of priors must be positive");
+  if (options.most_rounds < 1) throw UsageError("a fit needs at least one round");
 }
 
 // Hits with the run's time zero.
@@ -97,8 +93,7 @@ class Fit {
   }
 
   double photons_of(std::size_t r) const {
-    return photons_wanted(data_.runs[r], states_[r].hits_per_photon,
-                          {options_.light, options_.least_hits, options_.most_photons});
+    return photons_wanted(data_.runs[r], states_[r].hits_per_photon, options_.light);
   }
 
   RunBins bins_of(const Model& model, std::size_t r) {
@@ -145,10 +140,12 @@ class Fit {
   void one_round() {
     const Model model = this->model();
     const auto runs = states_.size();
+    std::vector<int> pairs;
+    const ScoreMap map = scores_of(model, data_.runs.front().run.wavelength, pairs);  // all have the same
     ScoreSystem system(static_cast<int>(count() + 2 * runs));
     for (std::size_t r = 0; r < runs; ++r) {
       report(r, "walking in the light of");
-      add_run_to(model, r, system);
+      add_run_to(model, r, map, pairs, system);
     }
     const IceSolution solution = solve_ice(system, fit_.parameters, fit_.numbers,
                                            {options_.smoothness, options_.amplitude}, longest_step);
@@ -171,7 +168,8 @@ class Fit {
     fit_.converged = mean < settled && furthest < settled_most;
   }
 
-  void add_run_to(const Model& model, std::size_t r, ScoreSystem& system) {
+  void add_run_to(const Model& model, std::size_t r, const ScoreMap& map, const std::vector<int>& pairs,
+                  ScoreSystem& system) {
     const RunData& run = data_.runs[r];
     RunState& state = states_[r];
     const double photons = photons_of(r);
@@ -179,8 +177,6 @@ class Fit {
     const RunRequest request = this->request(r, 2, photons);
     const SimulatedRun simulated = simulate(model, request, state.time_zero);
     fit_.photons += simulated.propagated;
-    std::vector<int> pairs;
-    const ScoreMap map = scores_of(model, run.run.wavelength, pairs);
     RunLight light = light_with_slopes(model, request, simulated, bins, map, state.time_zero);
     for (const int p : pairs) add_pair(request, state.time_zero, bins, p, light);
 

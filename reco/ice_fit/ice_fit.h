@@ -11,20 +11,14 @@
 #include "propagation/model.h"
 #include "reco/ice_fit/ice_parameter.h"
 #include "reco/ice_fit/run_data.h"
+#include "reco/ice_fit/run_plan.h"
 
 namespace floe {
 
-struct IceFitOptions {
-  double oversize = 16;        // of the simulations, 1-100
-  double light = 5;            // simulated light, in units of the data's, at least
-  double least_hits = 3e4;     // simulated hits of a run, at least
-  double most_photons = 2e11;  // N of a run's simulation, at most
-  double model_error = 0;      // relative, of every bin's expectation
-  double smoothness = 0.5;     // prior: width of the difference between neighbouring layers, in the logarithm
-  double amplitude = 1;        // prior: width of each parameter about its start, in the logarithm
+struct IceFitOptions : RunSettings {
+  double smoothness = 0.5;  // prior: width of the difference between neighbouring layers, in the logarithm
+  double amplitude = 1;     // prior: width of each parameter about its start, in the logarithm
   int most_rounds = 6;
-  std::uint64_t seed = 1;
-  int threads = 0;  // 0: all cores
 };
 
 struct RunResult {

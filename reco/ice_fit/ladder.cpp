@@ -84,8 +84,7 @@ class Climb {
     for (std::size_t r = 0; r < data_.runs.size(); ++r) {
       const RunData& run = data_.runs[r];
       const double each = look.hits_per_photon[r];
-      measure_.photons.push_back(photons_wanted(
-          run, each, {options_.fit.light, options_.fit.least_hits, options_.fit.most_photons}));
+      measure_.photons.push_back(photons_wanted(run, each, options_.fit.light));
       const Scout scout = scout_run(base_, request(r, scout_stream, measure_.photons[r]), 0);
       measure_.bins.push_back(bins_of(scout, run, run.charge / each));
     }

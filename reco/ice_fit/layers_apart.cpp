@@ -7,7 +7,6 @@
 #include <map>
 #include <numeric>
 
-#include "data/base/constants.h"
 #include "data/base/error.h"
 
 namespace floe {
@@ -33,7 +32,7 @@ std::map<double, Group> groups_of(const std::vector<IceParameter>& parameters) {
 
 // The group whose middle is nearest to the flasher.
 Group& group_of(const RunData& run, const Detector& detector, std::map<double, Group>& groups) {
-  const double depth = origin_depth - detector.modules()[detector.index_of(run.run.module)].position.z();
+  const double depth = flasher_depth(run, detector);
   auto nearest = groups.begin();
   for (auto group = groups.begin(); group != groups.end(); ++group)
     if (std::abs(group->first - depth) < std::abs(nearest->first - depth)) nearest = group;

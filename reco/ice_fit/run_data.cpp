@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "data/base/constants.h"
 #include "data/base/error.h"
 
 namespace floe {
@@ -64,6 +65,10 @@ Eigen::VectorXd RunData::counts(const RunBins& bins) const {
   for (const Pulse& pulse : pulses)
     if (const int bin = bins.bin(pulse.module, pulse.time); bin >= 0) result(bin) += pulse.charge;
   return result;
+}
+
+double flasher_depth(const RunData& run, const Detector& detector) {
+  return origin_depth - detector.modules()[detector.index_of(run.run.module)].position.z();
 }
 
 FlasherData flasher_data(const Detector& detector, std::span<const Event> events) {

@@ -32,6 +32,9 @@ struct FlasherData {
   std::vector<std::string> left_out;  // a sentence each
 };
 
+// Of the run's flasher, below the surface [m].
+double flasher_depth(const RunData& run, const Detector& detector);
+
 // The flasher runs among the events. Left out, with a sentence: events that are no flasher run, runs without
 // any light, runs at another wavelength than most. Modules that are off and the flashing module itself are
 // left out without a word. Throws InputError for modules that the detector does not have, and NoResult when

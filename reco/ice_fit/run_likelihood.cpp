@@ -72,14 +72,6 @@ void delay(SimulatedRun& simulated, double time) {
   for (SimulatedHit& hit : simulated.hits) hit.time += static_cast<float>(time);
 }
 
-double run_neg_llh(const SimulatedRun& simulated, double photons, const RunData& run, const RunBins& bins,
-                   const RunNuisances& nuisances, double model_error) {
-  const double factor = dispersion(simulated);
-  const Counts counts{run.counts(bins), simulated_counts(simulated, bins, nuisances.time_zero) / factor,
-                      photons / factor};
-  return sum_at(counts, nuisances.brightness, model_error).value;
-}
-
 RunMeasurement measure_run(const SimulatedRun& simulated, double photons, const RunData& run,
                            const RunBins& bins, const RunNuisances& start, double model_error) {
   const double factor = dispersion(simulated);

@@ -26,10 +26,8 @@ double dispersion(const SimulatedRun& simulated);
 // Moves all hits in time [ns].
 void delay(SimulatedRun& simulated, double time);
 
-// The likelihood of a run's counts at these nuisances. `photons`: N of the simulation.
-double run_neg_llh(const SimulatedRun& simulated, double photons, const RunData& run, const RunBins& bins,
-                   const RunNuisances& nuisances, double model_error);
-// And at the best ones: `start` is where to look for them first; brightness 0: from the number of hits.
+// The likelihood of a run's counts at the best nuisances. `photons`: N of the simulation; `start`: where to
+// look for them first; brightness 0: from the number of hits.
 RunMeasurement measure_run(const SimulatedRun& simulated, double photons, const RunData& run,
                            const RunBins& bins, const RunNuisances& start, double model_error);
 

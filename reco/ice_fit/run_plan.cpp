@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "data/base/error.h"
 #include "reco/ice_fit/run_likelihood.h"
 
 namespace floe {
@@ -31,6 +32,16 @@ FirstLook look_first(const Model& model, const RequestOfRun& request, FlasherDat
   for (std::size_t r = 0; r < data.runs.size(); ++r)
     look.hits_per_photon.push_back(std::max(1.0, used_hits(simulated[r], data.runs[r])) / first_photons);
   return look;
+}
+
+void check(const RunSettings& settings) {
+  const auto require = [](bool right, const char* what) {
+    if (!right) throw UsageError(what);
+  };
+  require(settings.oversize >= 1 && settings.oversize <= 100,
+          "the oversize factor must be between 1 and 100");
+  require(settings.light.light > 0, "the simulated light must be more than none of the data's");
+  require(settings.model_error >= 0 && settings.model_error <= 1, "the model error must be between 0 and 1");
 }
 
 double photons_wanted(const RunData& run, double hits_per_photon, const LightBudget& budget) {

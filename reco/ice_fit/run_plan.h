@@ -30,6 +30,16 @@ struct LightBudget {
   double most_photons = 2e11;  // N of a run's simulation, at most
 };
 
+// How runs are simulated and compared with the data.
+struct RunSettings {
+  double oversize = 16;  // of the simulations, 1-100
+  LightBudget light;
+  double model_error = 0;  // relative, of every bin's expectation
+  std::uint64_t seed = 1;
+  int threads = 0;  // 0: all cores; the result does not depend on it
+};
+void check(const RunSettings& settings);  // throws UsageError for values out of range
+
 // N of a run's simulation.
 double photons_wanted(const RunData& run, double hits_per_photon, const LightBudget& budget);
 

@@ -41,16 +41,12 @@ void check(const ScanAxis& axis) {
                       low, high));
 }
 
-void check(const ScanAxis& x, const ScanAxis& y, const ScanOptions& options) {
+void check(const ScanAxis& x, const ScanAxis& y, const RunSettings& options) {
   check(x);
   check(y);
-  const auto require = [](bool right, const std::string& what) {
-    if (!right) throw UsageError(what);
-  };
-  require(x.parameter.name != y.parameter.name, fmt::format("{} is named twice", x.parameter.name));
-  require(options.oversize >= 1 && options.oversize <= 100, "the oversize factor must be between 1 and 100");
-  require(options.light.light > 0, "the simulated light must be more than none of the data's");
-  require(options.model_error >= 0 && options.model_error <= 1, "the model error must be between 0 and 1");
+  if (x.parameter.name == y.parameter.name)
+    throw UsageError(fmt::format("{} is named twice", x.parameter.name));
+  check(options);
 }
 
 // Even or odd photons.
@@ -71,7 +67,7 @@ struct RunPlan {
 
 class Scan {
  public:
-  Scan(const Model& base, const FlasherData& data, const ScanOptions& options, const Progress& progress,
+  Scan(const Model& base, const FlasherData& data, const RunSettings& options, const Progress& progress,
        IceScan& result)
       : base_(base), data_(data), options_(options), progress_(progress), scan_(result) {}
 
@@ -201,7 +197,7 @@ class Scan {
 
   const Model& base_;
   FlasherData data_;
-  const ScanOptions& options_;
+  const RunSettings& options_;
   const Progress& progress_;
   IceScan& scan_;
   std::vector<RunPlan> plans_;
@@ -225,7 +221,7 @@ double ScanAxis::number(double value) const {
 }
 
 IceScan scan_ice(const Model& base, const FlasherData& data, const ScanAxis& x, const ScanAxis& y,
-                 const ScanOptions& options, const Progress& progress) {
+                 const RunSettings& options, const Progress& progress) {
   check(x, y, options);
   const auto start = std::chrono::steady_clock::now();
   IceScan scan;

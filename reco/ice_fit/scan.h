@@ -28,14 +28,6 @@ struct ScanAxis {
   double number(double value) const;  // as IceParameter::apply takes it
 };
 
-struct ScanOptions {
-  double oversize = 16;  // of the simulations, 1-100
-  LightBudget light;
-  double model_error = 0;  // relative, of every bin's expectation
-  std::uint64_t seed = 1;
-  int threads = 0;  // 0: all cores; the result does not depend on it
-};
-
 struct IceScan {
   ScanAxis x, y;
   NumberGrid neg_llh;  // rows along y, columns along x; each run's brightness and time zero at their best
@@ -57,7 +49,7 @@ inline constexpr double level_68 = 1.15, level_95 = 3.09;
 // points have little noise; bins are those of the base model's light. Throws UsageError for options or axes
 // out of range and for the same parameter twice, NoResult when no run has light to compare.
 IceScan scan_ice(const Model& base, const FlasherData& data, const ScanAxis& x, const ScanAxis& y,
-                 const ScanOptions& options, const Progress& progress = {});
+                 const RunSettings& options, const Progress& progress = {});
 
 // Grid as a colour map, contours at both levels, minimum, base model: an SVG document.
 std::string scan_picture(const IceScan& scan, const std::string& title);
