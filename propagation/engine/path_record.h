@@ -8,6 +8,7 @@
 
 #include "propagation/engine/anisotropy.h"
 #include "propagation/engine/path_scores.h"
+#include "propagation/engine/turn_score.h"
 
 namespace floe {
 
@@ -33,6 +34,7 @@ class PathRecord {
     PathScores::Layer& score = at(layer);
     score.absorption -= length * absorption / isotropic;
     score.scattering -= length;
+    score.length += length;
     for (std::size_t i = 0; i < 3; ++i)
       scores_.absorption_anisotropy[i] += length * absorption * anisotropy_slope_[i];
     scores_.lowest = std::min(scores_.lowest, layer);
@@ -42,14 +44,14 @@ class PathRecord {
 
   void scatter(int layer, double geometric_scattering) { at(layer).scattering += 1 / geometric_scattering; }
 
-  // The birefringent step at the piece's end. Its widths' squares grow with V, the diffusion strength
-  // integrated along the piece: (g^2 - 1)/(2V) for each of the step's normals g. `mean_pull`: how far the
-  // step lies towards the flow, in widths, times mean over width of one metre.
-  void turn(double V, double sum_of_squares, int normals, double mean_pull) {
+  // The birefringent step at the piece's end, by moments of its normals g. Its widths' squares grow with V,
+  // the diffusion strength integrated along the piece: (g^2 - 1)/(2V) for each of the two. The mean grows
+  // with length: `mean_over_width`, both of one metre, times the pull over the root of V.
+  void turn(double V, const TurnMoments& moments, double mean_over_width) {
     if (!(V > 0)) return;
     for (const auto& [layer, length] : flights_) {
-      at(layer).diffusion += length * (sum_of_squares - normals) / (2 * V);
-      at(layer).deflection += length * mean_pull / std::sqrt(V);
+      at(layer).diffusion += length * (moments.squares - 2) / (2 * V);
+      at(layer).deflection += length * moments.pull * mean_over_width / std::sqrt(V);
     }
   }
 

@@ -4,8 +4,9 @@
 // exp(-a l) for absorption, b exp(-b l) for each flight that ends in a scatter, a Gaussian for each
 // birefringent step. With s = d ln(density)/d p summed up to the hit, the derivative of any expected sum over
 // hits is the sum with each hit weighted by s (the likelihood-ratio or score-function method, e.g. Glynn,
-// Comm. ACM 33, 1990). Absorption has little variance, scattering and birefringence have about one unit a
-// scatter.
+// Comm. ACM 33, 1990). Absorption has little variance, scattering has about one unit a scatter, birefringence
+// a fifth of that: its steps are judged by what the scatter behind them leaves of them
+// (propagation/engine/turn_score.h).
 #pragma once
 
 #include <array>
@@ -25,9 +26,11 @@ struct PathScores {
   //   isotropic absorption coefficient at the photon's wavelength [m]: minus the path, times its anisotropy,
   //   geometric scattering coefficient at the photon's wavelength [m]: scatters/b less the path,
   //   diffusion strength a and deflection strength a b (IceLayer). These two are 0 where the strength is 0:
-  //   birefringence cannot be weighted in where there is none.
+  //   birefringence cannot be weighted in where there is none. A step's displacement is held as it is: what
+  //   half a piece of path adds to a direction's change, which lasts for about 1/(1 - g) pieces.
   struct Layer {
     double absorption = 0, scattering = 0, diffusion = 0, deflection = 0;
+    double length = 0;  // of the path in the layer [m]
   };
   std::vector<Layer> layers;
   // With respect to the absorption anisotropy's normalised factors (K1, K2, Kz).

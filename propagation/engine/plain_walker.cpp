@@ -16,6 +16,7 @@
 #include "propagation/engine/path_record.h"
 #include "propagation/engine/photon_acceptance.h"
 #include "propagation/engine/scattering.h"
+#include "propagation/engine/turn_score.h"
 #include "propagation/engine/walker.h"
 
 namespace floe {
@@ -74,6 +75,8 @@ class PlainWalker : public PhotonWalker, public PathTracer {
         old_scaling_(ice_.old_absorption_scaling()),
         ice_scattering_{ice_.simplified_liu_fraction(), ice_.mean_cosine()},
         column_scattering_{columns_.simplified_liu_fraction(), columns_.mean_cosine()},
+        score_scattering_{static_cast<float>(ice_.simplified_liu_fraction()),
+                          static_cast<float>(ice_.mean_cosine())},
         flow_(std::cos(ice_.flow_azimuth()), std::sin(ice_.flow_azimuth())) {}
 
   WalkerCounts walk(const Source& source, const PhotonBatch& batch,
@@ -129,9 +132,11 @@ class PlainWalker : public PhotonWalker, public PathTracer {
       photon.time += piece.length / speed;
       photon.absorption_depth = piece.absorption_depth;
       photon.scattering_depth = piece.scattering_depth;
-      if (!piece.in_column) birefringent_step(photon, piece, random, task);
+      std::optional<BirefringentTurn> turn;
+      if (ice_.birefringence() && !piece.in_column) turn = birefringent_step(photon, piece, random);
+      if (piece.end == Piece::End::scatter) scatter(photon, piece, random);
+      if (task.trace && turn) record_turn(photon, piece, *turn, task.trace->record);
       if (piece.end == Piece::End::limit) continue;
-      scatter(photon, piece, random);
       photon.scattering_depth = random.exponential();
       ++task.counts.scatters;
     }
@@ -288,8 +293,7 @@ class PlainWalker : public PhotonWalker, public PathTracer {
     trace.sink(hit, record.scores());
   }
 
-  void birefringent_step(Photon& photon, const Piece& piece, RandomStream& random, Task& task) const {
-    if (!ice_.birefringence()) return;
+  BirefringentTurn birefringent_step(Photon& photon, const Piece& piece, RandomStream& random) const {
     const BirefringenceNumbers& numbers = *ice_.birefringence();
     const auto [g1, g2] = gaussian_pair(random);
     const auto [g3, g4] = gaussian_pair(random);
@@ -298,14 +302,34 @@ class PlainWalker : public PhotonWalker, public PathTracer {
     const DiffusionStep one_metre = diffusion_step(numbers, std::min(frame.cosine, 1.0));
     const double width = numbers.diffusion ? std::sqrt(piece.diffusion) : 0.0;
     const double drift = numbers.deflection ? piece.deflection : 0.0;
-    birefringent_deflection(
-        frame, width * one_metre.sigma_x, width * one_metre.sigma_y, drift * one_metre.mean_x, g1, g2, g3, g4,
-        numbers.displacement ? piece.length : 0.0, n.x(), n.y(), n.z(), r.x(), r.y(), r.z());
+    const BirefringentTurn turn{in_flow_frame(n),
+                                in_flow_frame({frame.xx, frame.xy, frame.xz}),
+                                in_flow_frame({frame.yx, frame.yy, frame.yz}),
+                                width * one_metre.sigma_x,
+                                width * one_metre.sigma_y,
+                                drift * one_metre.mean_x,
+                                g1,
+                                g2};
+    birefringent_deflection(frame, turn.width_x, turn.width_y, turn.mean_x, g1, g2, g3, g4,
+                            numbers.displacement ? piece.length : 0.0, n.x(), n.y(), n.z(), r.x(), r.y(),
+                            r.z());
     n.normalize();
-    if (!task.trace || !numbers.diffusion) return;  // without widths there is nothing to weight
-    const bool both = numbers.displacement;
-    task.trace->record.turn(piece.diffusion, g1 * g1 + g2 * g2 + (both ? g3 * g3 + g4 * g4 : 0), both ? 4 : 2,
-                            numbers.deflection ? g1 * one_metre.mean_x / one_metre.sigma_x : 0);
+    return turn;
+  }
+
+  // After the scatter, where there was one.
+  void record_turn(const Photon& photon, const Piece& piece, const BirefringentTurn& turn,
+                   PathRecord& record) const {
+    const BirefringenceNumbers& numbers = *ice_.birefringence();
+    if (!numbers.diffusion) return;  // without widths there is nothing to weight
+    const IceLayer& ice = ice_.layers()[static_cast<std::size_t>(piece.layer)];
+    const TurnMoments moments =
+        piece.end == Piece::End::scatter
+            ? moments_given_scatter(turn, in_flow_frame(photon.direction), score_scattering_,
+                                    std::exp(ice.k1), std::exp(ice.k2))
+            : moments_drawn(turn);
+    const DiffusionStep one_metre = diffusion_step(numbers, std::min(std::abs(turn.before.x()), 1.0));
+    record.turn(piece.diffusion, moments, numbers.deflection ? one_metre.mean_x / one_metre.sigma_x : 0);
   }
 
   void scatter(Photon& photon, const Piece& piece, RandomStream& random) const {
@@ -333,6 +357,11 @@ class PlainWalker : public PhotonWalker, public PathTracer {
     return {flow_.x() * n.x() + flow_.y() * n.y(), -flow_.y() * n.x() + flow_.x() * n.y(), n.z()};
   }
 
+  Vec3 in_flow_frame(const Vec3& n) const {
+    const auto [along, across, up] = flow_components(n);
+    return {along, across, up};
+  }
+
   static std::array<double, 2> gaussian_pair(RandomStream& random) {
     const double radius = std::sqrt(2 * random.exponential()), angle = 2 * pi * random.uniform();
     return {radius * std::cos(angle), radius * std::sin(angle)};
@@ -347,6 +376,7 @@ class PlainWalker : public PhotonWalker, public PathTracer {
   PhotonAcceptance acceptance_;
   double old_scaling_;
   ScatteringFunction<double> ice_scattering_, column_scattering_;
+  ScatteringFunction<float> score_scattering_;
   Eigen::Vector2d flow_;
 };
 

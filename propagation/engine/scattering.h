@@ -1,6 +1,8 @@
 // One scattering off dust or air bubbles: the angle's distribution (arXiv:1301.5361 section 3).
 #pragma once
 
+#include <cmath>
+
 #include "propagation/engine/vector_math.h"
 
 namespace floe {
@@ -27,6 +29,16 @@ struct ScatteringFunction {
     const Scalar henyey_greenstein = 2 * (1 - v) * (1 - g) * (1 - g) * (1 + g * v) / (p * p);
     const Scalar x = is_liu * liu + (1 - is_liu) * henyey_greenstein;
     return x < 0 ? Scalar(0) : x > 2 ? Scalar(2) : x;
+  }
+
+  // Probability density of cos(theta) at this 1 - cos(theta).
+  Scalar density(Scalar one_minus_cos) const {
+    const Scalar half = 1 - one_minus_cos / 2, least = Scalar(1e-30);
+    const Scalar power = (1 / liu_exponent - 1) * natural_log(half > least ? half : least);
+    const Scalar liu = decay(power > Scalar(-80) ? power : Scalar(-80)) / (2 * liu_exponent);
+    const Scalar square = (1 - g) * (1 - g) + 2 * g * one_minus_cos;
+    const Scalar henyey_greenstein = (1 - g * g) / (2 * square * std::sqrt(square));
+    return liu_fraction * liu + (1 - liu_fraction) * henyey_greenstein;
   }
 };
 

@@ -17,7 +17,7 @@ namespace floe {
 
 namespace {
 
-constexpr double longest_step = 0.7;  // of a round, in the parameter's scale
+constexpr double longest_step = 2;  // of a round, in the parameter's scale
 // Steps so small, in their errors, are the last: root mean square and largest. New simulations in every round
 // keep them from getting much smaller.
 constexpr double settled = 0.8, settled_most = 2.5;
@@ -30,6 +30,8 @@ struct RunState {
   double hits_per_photon = 0;  // simulated, of used receivers
   double brightness = 1;       // N of all flashes together
   double time_zero = 0;        // [ns]
+  RunBins bins;
+  RunLight seen;  // of the rounds from the second on, in these bins
 };
 
 void check(const IceFitOptions& options) {
@@ -147,6 +149,7 @@ class Fit {
       report(r, "walking in the light of");
       add_run_to(model, r, map, pairs, system);
     }
+    calibrate_information(groups(), system);
     const IceSolution solution = solve_ice(system, fit_.parameters, fit_.numbers,
                                            {options_.smoothness, options_.amplitude}, longest_step);
     double furthest = 0, squares = 0;
@@ -168,12 +171,21 @@ class Fit {
     fit_.converged = mean < settled && furthest < settled_most;
   }
 
+  // By column of the system's parameters: families, and each parameter that has none.
+  std::vector<std::string> groups() const {
+    std::vector<std::string> names;
+    for (const IceParameter& p : fit_.parameters) names.push_back(p.family.empty() ? p.name : p.family);
+    return names;
+  }
+
   void add_run_to(const Model& model, std::size_t r, const ScoreMap& map, const std::vector<int>& pairs,
                   ScoreSystem& system) {
     const RunData& run = data_.runs[r];
     RunState& state = states_[r];
     const double photons = photons_of(r);
-    const RunBins bins = bins_of(model, r);
+    // The first round may be far from the data; from the second one on, bins stay and slopes gather.
+    if (round_ <= 2) state.bins = bins_of(model, r);
+    const RunBins& bins = state.bins;
     const RunRequest request = this->request(r, 2, photons);
     const SimulatedRun simulated = simulate(model, request, state.time_zero);
     fit_.photons += simulated.propagated;
@@ -188,7 +200,14 @@ class Fit {
     counts.dispersion = dispersion(simulated);
     counts.data_dispersion = run.run.oversize > 1 ? counts.dispersion : 1;
     counts.model_error = options_.model_error;
-    add_run(light, counts, static_cast<int>(count() + 2 * r), system);
+    const int nuisance = static_cast<int>(count() + 2 * r);
+    if (round_ <= 2) {
+      add_run(light, light, counts, nuisance, system);
+      state.seen = std::move(light);
+    } else {
+      add_run(light, state.seen, counts, nuisance, system);
+      for (int fold = 0; fold < 2; ++fold) state.seen.folds[fold] += light.folds[fold];
+    }
   }
 
   // Fresh simulations say how well the result fits.

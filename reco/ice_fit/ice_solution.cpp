@@ -3,6 +3,7 @@
 #include <ceres/ceres.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -127,8 +128,19 @@ Eigen::VectorXd best_within(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, 
   return x;
 }
 
-Eigen::MatrixXd inverse(const Eigen::MatrixXd& information) {
-  return information.ldlt().solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
+// The nearest matrix that is no less than nothing in any direction: noise makes information negative where
+// there is next to none.
+Eigen::MatrixXd without_negative(const Eigen::MatrixXd& symmetric) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(symmetric);
+  return parts.eigenvectors() * parts.eigenvalues().cwiseMax(0).asDiagonal() *
+         parts.eigenvectors().transpose();
+}
+
+// Covariance of x = J^-1 y for a y of covariance C.
+Eigen::MatrixXd sandwich(const Eigen::MatrixXd& J, const Eigen::MatrixXd& C) {
+  const auto solver = J.ldlt();
+  const Eigen::MatrixXd half = solver.solve(C);
+  return solver.solve(half.transpose());
 }
 
 }  // namespace
@@ -137,11 +149,6 @@ IceSolution solve_ice(const ScoreSystem& system, const std::vector<IceParameter>
                       const std::vector<double>& numbers, const IcePriors& priors, double longest) {
   const Eigen::Index size = system.gap.size();
   const auto count = static_cast<Eigen::Index>(parameters.size());
-  Eigen::MatrixXd noise = system.noise;
-  noise.diagonal().array() += no_information;
-  const Eigen::LLT<Eigen::MatrixXd> root(noise);
-  const Eigen::MatrixXd A = root.matrixL().solve(system.slope);
-  const Eigen::VectorXd b = root.matrixL().solve(system.gap);
   const PriorRows prior = prior_rows(parameters, numbers, priors, size);
 
   Eigen::VectorXd low(size), high(size);
@@ -155,18 +162,22 @@ IceSolution solve_ice(const ScoreSystem& system, const std::vector<IceParameter>
       low(i) = -high(i);
     }
   }
-  Eigen::MatrixXd all(A.rows() + prior.A.rows(), size);
-  Eigen::VectorXd wanted(all.rows());
-  all << A, prior.A;
-  wanted << b, prior.b;
+  // Scores, and with them the information, differ in size by many orders: brightness is known to a
+  // thousandth, time zero in nanoseconds.
+  const Eigen::MatrixXd light = without_negative(system.information);
+  Eigen::MatrixXd both = light + prior.A.transpose() * prior.A;
+  both.diagonal().array() += no_information;
+  const Eigen::LLT<Eigen::MatrixXd> root(both);
+  const Eigen::VectorXd pull = system.gap + prior.A.transpose() * prior.b;
 
   IceSolution solution;
-  solution.step = best_within(all, wanted, low, high);
-  const Eigen::MatrixXd light = A.transpose() * A;
-  solution.covariance = inverse(light + prior.A.transpose() * prior.A).topLeftCorner(count, count);
+  solution.step = best_within(root.matrixU(), root.matrixL().solve(pull), low, high);
+  solution.covariance =
+      sandwich(both, system.noise + prior.A.transpose() * prior.A).topLeftCorner(count, count);
   Eigen::MatrixXd weak = light;
-  weak.diagonal().array() += hardly_information;
-  const Eigen::VectorXd variance = inverse(weak).diagonal();
+  Eigen::MatrixXd noise = system.noise;
+  for (Eigen::MatrixXd* matrix : {&weak, &noise}) matrix->diagonal().array() += hardly_information;
+  const Eigen::VectorXd variance = sandwich(weak, noise).diagonal();
   for (Eigen::Index i = 0; i < count; ++i)
     solution.light_errors.push_back(variance(i) > 0 && variance(i) < unknown
                                         ? std::sqrt(variance(i))

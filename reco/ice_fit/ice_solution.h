@@ -20,8 +20,8 @@ struct IceSolution {
   std::vector<double> light_errors;  // without priors
 };
 
-// Minimises |L^-1 (gap - slope step)|^2/2 + priors with Ceres, noise = L L'; no parameter moves further than
-// `longest` times its scale and none leaves its limits.
+// Solves gap = information step, with the priors' gap and information added, by Ceres; no parameter moves
+// further than `longest` times its scale and none leaves its limits. The noise is in the covariance alone.
 IceSolution solve_ice(const ScoreSystem& system, const std::vector<IceParameter>& parameters,
                       const std::vector<double>& numbers, const IcePriors& priors, double longest);
 

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "propagation/sources/flasher.h"
+#include "reco/ice_fit/smooth_slopes.h"
 
 namespace floe {
 
@@ -24,10 +25,20 @@ FlasherSource source_of(const Model& model, const RunRequest& request) {
 
 LightFold empty_fold(int bins, int parameters) {
   return {Eigen::VectorXd::Zero(bins), Eigen::MatrixXd::Zero(bins, parameters),
-          Eigen::MatrixXd::Zero(bins, parameters), Eigen::VectorXd::Zero(bins)};
+          Eigen::MatrixXd::Zero(bins, parameters), Eigen::MatrixXd::Zero(bins, parameters),
+          Eigen::VectorXd::Zero(bins)};
 }
 
 }  // namespace
+
+LightFold& LightFold::operator+=(const LightFold& other) {
+  counts += other.counts;
+  slopes += other.slopes;
+  slope_squares += other.slope_squares;
+  dwell += other.dwell;
+  delay += other.delay;
+  return *this;
+}
 
 SimulatedRun simulate_run(const Model& model, const RunRequest& request) {
   const FlasherSource source = source_of(model, request);
@@ -50,8 +61,6 @@ SimulatedRun simulate_run(const Model& model, const RunRequest& request) {
 RunLight count_light(const SimulatedRun& run, const RunBins& bins, double photons, int parameters) {
   RunLight light;
   light.photons = photons / 2;
-  light.propagated = run.propagated;
-  light.hits = run.hits.size();
   for (LightFold& fold : light.folds) fold = empty_fold(bins.size(), parameters);
   for (const SimulatedHit& hit : run.hits) {
     const int bin = bins.bin(hit.module, hit.time);
@@ -71,6 +80,8 @@ RunLight light_with_slopes(const Model& model, const RunRequest& request, const 
   for (const SimulatedHit& hit : run.hits)
     if ((photons.empty() || photons.back() != hit.photon) && bins.bin(hit.module, hit.time) >= 0)
       photons.push_back(hit.photon);
+  const Vec3 flasher = model.detector->modules()[model.detector->index_of(request.run.module)].position;
+  light.places = bin_places(bins, *model.detector, flasher, model.ice->flow_azimuth());
   const FlasherSource source = source_of(model, request);
   const auto tracer = make_path_tracer(model, request.oversize);
   const int threads = request.threads > 0 ? request.threads : omp_get_num_procs();
@@ -82,22 +93,20 @@ RunLight light_with_slopes(const Model& model, const RunRequest& request, const 
     const std::span<const std::uint64_t> some(photons.data() + first,
                                               std::min(share, photons.size() - first));
     for (LightFold& fold : sums[part]) fold = empty_fold(bins.size(), map.parameters());
-    Eigen::VectorXd scores;
+    Eigen::VectorXd scores, dwell;
     tracer->trace(source, request.seed, request.stream, some,
                   [&](const SimulatedHit& hit, const PathScores& path) {
                     const int bin = bins.bin(hit.module, hit.time + time_zero);
                     if (bin < 0) return;
-                    map.scores(path, scores);
+                    map.scores(path, scores, dwell);
                     LightFold& fold = sums[part][hit.photon & 1];
                     fold.slopes.row(bin) += scores;
                     fold.slope_squares.row(bin) += scores.cwiseAbs2();
+                    fold.dwell.row(bin) += dwell;
                   });
   }
   for (const auto& part : sums)
-    for (std::size_t fold = 0; fold < 2; ++fold) {
-      light.folds[fold].slopes += part[fold].slopes;
-      light.folds[fold].slope_squares += part[fold].slope_squares;
-    }
+    for (std::size_t fold = 0; fold < 2; ++fold) light.folds[fold] += part[fold];
   return light;
 }
 

@@ -4,8 +4,6 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <functional>
-#include <optional>
 #include <vector>
 
 #include "data/flasher_run.h"
@@ -21,13 +19,16 @@ struct LightFold {
   Eigen::VectorXd counts;         // simulated hits per bin
   Eigen::MatrixXd slopes;         // bins x parameters: d counts / d parameter
   Eigen::MatrixXd slope_squares;  // sums of the squares that went into `slopes`: their variance
+  Eigen::MatrixXd dwell;          // bins x parameters: path where the parameter acts, summed over hits [m]
   Eigen::VectorXd delay;          // d counts / d time zero [1/ns]
+
+  LightFold& operator+=(const LightFold& other);
 };
 
 struct RunLight {
   LightFold folds[2];
-  double photons = 0;  // N that each fold stands for (FlasherSettings::photons)
-  std::uint64_t propagated = 0, hits = 0;
+  double photons = 0;      // N that each fold stands for (FlasherSettings::photons)
+  Eigen::MatrixXd places;  // of the bins, for smooth slopes
 };
 
 struct RunRequest {

@@ -90,17 +90,24 @@ bool ScoreMap::add(int parameter, const Model& changed, double step) {
   return true;
 }
 
-void ScoreMap::scores(const PathScores& path, Eigen::VectorXd& result) const {
-  result.setZero(parameters_);
+void ScoreMap::scores(const PathScores& path, Eigen::VectorXd& scores, Eigen::VectorXd& dwell) const {
+  scores.setZero(parameters_);
+  dwell.setZero(parameters_);
+  double length = 0;
   for (int layer = path.lowest; layer <= path.highest; ++layer) {
     const PathScores::Layer& score = path.layers[static_cast<std::size_t>(layer)];
-    for (const Entry& entry : entries_[static_cast<std::size_t>(layer)])
-      result(entry.parameter) += entry.absorption * score.absorption + entry.scattering * score.scattering +
+    length += score.length;
+    for (const Entry& entry : entries_[static_cast<std::size_t>(layer)]) {
+      scores(entry.parameter) += entry.absorption * score.absorption + entry.scattering * score.scattering +
                                  entry.diffusion * score.diffusion + entry.deflection * score.deflection;
+      dwell(entry.parameter) += score.length;
+    }
   }
-  for (const AnisotropyEntry& entry : anisotropy_)
+  for (const AnisotropyEntry& entry : anisotropy_) {
+    dwell(entry.parameter) = length;
     for (std::size_t i = 0; i < 3; ++i)
-      result(entry.parameter) += entry.slope[i] * path.absorption_anisotropy[i];
+      scores(entry.parameter) += entry.slope[i] * path.absorption_anisotropy[i];
+  }
 }
 
 }  // namespace floe

@@ -22,8 +22,8 @@ class ScoreMap {
   bool add(int parameter, const Model& changed, double step);
 
   int parameters() const { return parameters_; }
-  // d ln(density) / d parameters of a path.
-  void scores(const PathScores& path, Eigen::VectorXd& result) const;
+  // d ln(density) / d parameters of a path, and its length [m] in the layers that each parameter changes.
+  void scores(const PathScores& path, Eigen::VectorXd& scores, Eigen::VectorXd& dwell) const;
 
  private:
   struct Entry {

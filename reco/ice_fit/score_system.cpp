@@ -1,46 +1,37 @@
 #include "reco/ice_fit/score_system.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "reco/ice_fit/smooth_slopes.h"
 
 namespace floe {
 
 namespace {
 
-// Slopes of ln(mu) per bin, ice parameters first, then brightness and time zero.
-Eigen::MatrixXd logarithmic_slopes(const LightFold& fold) {
-  const Eigen::Index parameters = fold.slopes.cols();
-  const Eigen::ArrayXd counts = fold.counts.array().max(1);
-  Eigen::MatrixXd slopes(fold.slopes.rows(), parameters + 2);
-  slopes.leftCols(parameters) = fold.slopes.array().colwise() / counts;
-  slopes.col(parameters).setOnes();
-  slopes.col(parameters + 1) = fold.delay.array() / counts;
+// Adds the run's own two columns, brightness and time zero, to the slopes of ln(mu) per bin.
+Eigen::MatrixXd with_nuisances(const Eigen::MatrixXd& ice, const LightFold& fold) {
+  Eigen::MatrixXd slopes(ice.rows(), ice.cols() + 2);
+  slopes << ice, Eigen::VectorXd::Ones(ice.rows()),
+      (fold.delay.array() / fold.counts.array().max(1)).matrix();
   return slopes;
 }
 
-// What is left of noisy slopes by Stein's argument: with power t^2 over the bins and noise v of a bin the
-// best guess is t^2/(t^2 + v) of it. The power is the product of both folds' slopes, free of noise on
-// average.
-Eigen::MatrixXd weights(const LightFold& fold, const Eigen::MatrixXd& own, const Eigen::MatrixXd& other) {
-  Eigen::MatrixXd result = own;
-  const Eigen::ArrayXd counts = fold.counts.array().max(1);
-  for (Eigen::Index p = 0; p < fold.slopes.cols(); ++p) {
-    const double power =
-        std::max(0.0, (own.col(p).array() * other.col(p).array() * counts).sum() / counts.sum());
-    const Eigen::ArrayXd noise =
-        (fold.slope_squares.col(p).array() / counts - own.col(p).array().square()).max(0) / counts;
-    result.col(p).array() *= power / (power + noise).max(1e-30);
-  }
-  return result;
+Eigen::MatrixXd own_slopes(const LightFold& fold) {
+  return with_nuisances(fold.slopes.array().colwise() / fold.counts.array().max(1), fold);
 }
 
 }  // namespace
 
-void add_run(const RunLight& light, const RunCounts& counts, int nuisance, ScoreSystem& system) {
+void add_run(const RunLight& light, const RunLight& seen, const RunCounts& counts, int nuisance,
+             ScoreSystem& system) {
   const LightFold* folds = light.folds;
   const Eigen::Index parameters = folds[0].slopes.cols();
-  const Eigen::MatrixXd slopes[2] = {logarithmic_slopes(folds[0]), logarithmic_slopes(folds[1])};
-  const Eigen::MatrixXd weight[2] = {weights(folds[0], slopes[0], slopes[1]),
-                                     weights(folds[1], slopes[1], slopes[0])};
+  const SmoothSlopes smooth = smooth_slopes(seen.folds, seen.places);
+  const Eigen::MatrixXd slopes[2] = {own_slopes(folds[0]), own_slopes(folds[1])};
+  const Eigen::MatrixXd weight[2] = {with_nuisances(smooth.fold[0], seen.folds[0]),
+                                     with_nuisances(smooth.fold[1], seen.folds[1])};
   const Eigen::ArrayXd expected[2] = {counts.scale * folds[0].counts.array(),
                                       counts.scale * folds[1].counts.array()};
   const Eigen::ArrayXd mu = (expected[0] + expected[1]) / 2;
@@ -51,14 +42,16 @@ void add_run(const RunLight& light, const RunCounts& counts, int nuisance, Score
 
   const Eigen::Index size = parameters + 2;
   Eigen::VectorXd gap = Eigen::VectorXd::Zero(size);
-  Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(size, size), noise = slope;
+  Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(size, size), information = slope, noise = slope;
   const auto add_noise = [&](const Eigen::MatrixXd& w, const Eigen::ArrayXd& variance) {
     noise += w.transpose() * (variance * trust.square()).matrix().asDiagonal() * w;
   };
   for (int fold = 0; fold < 2; ++fold) {
     const int other = 1 - fold;
     gap += weight[fold].transpose() * (trust * (counts.data.array() - expected[other])).matrix() / 2;
-    slope += weight[fold].transpose() * (trust * expected[other]).matrix().asDiagonal() * weight[other] / 2;
+    const auto light_of_bins = (trust * expected[other]).matrix().asDiagonal();
+    slope += weight[fold].transpose() * light_of_bins * slopes[other] / 2;
+    information += weight[fold].transpose() * light_of_bins * weight[fold] / 2;
     add_noise(weight[fold] / 2, counts.dispersion * counts.scale * expected[other]);
   }
   add_noise((weight[0] + weight[1]) / 2, counts.data_dispersion * mu + known * mu.square());
@@ -69,9 +62,30 @@ void add_run(const RunLight& light, const RunCounts& counts, int nuisance, Score
     system.gap(place(i)) += gap(i);
     for (Eigen::Index k = 0; k < size; ++k) {
       system.slope(place(i), place(k)) += slope(i, k);
+      system.information(place(i), place(k)) += (information(i, k) + information(k, i)) / 2;
       system.noise(place(i), place(k)) += noise(i, k);
     }
   }
+}
+
+void calibrate_information(const std::vector<std::string>& groups, ScoreSystem& system) {
+  constexpr double least = 0.3, most = 1.5;  // weights this far off would be of no use
+  struct Sums {
+    double slope = 0, information = 0;
+  };
+  std::map<std::string, Sums> sums;
+  for (std::size_t p = 0; p < groups.size(); ++p) {
+    const auto i = static_cast<Eigen::Index>(p);
+    sums[groups[p]].slope += system.slope(i, i);
+    sums[groups[p]].information += system.information(i, i);
+  }
+  Eigen::VectorXd factor = Eigen::VectorXd::Ones(system.gap.size());
+  for (std::size_t p = 0; p < groups.size(); ++p) {
+    const Sums& sum = sums[groups[p]];
+    if (sum.information > 0)
+      factor(static_cast<Eigen::Index>(p)) = std::sqrt(std::clamp(sum.slope / sum.information, least, most));
+  }
+  system.information = factor.asDiagonal() * system.information * factor.asDiagonal();
 }
 
 }  // namespace floe

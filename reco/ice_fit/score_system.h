@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
+#include <vector>
 
 #include "reco/ice_fit/run_light.h"
 
@@ -9,17 +11,19 @@ namespace floe {
 
 // With weights w per bin and parameter that one half of a simulation suggests, and expectations mu of the
 // other half,
-//   gap   = sum_bins w (d - mu)              0 on average at the true parameters, whatever the weights
-//   slope = sum_bins w d mu / d parameters   how fast it closes
-//   noise = its covariance: Poisson noise of data and simulation.
-// The best weights are d ln mu / d parameters, for which slope = noise = the Fisher information.
+//   gap         = sum_bins w (d - mu)             0 on average at the true parameters, whatever the weights
+//   slope       = sum_bins w d mu/d parameters    how fast it closes, from the slopes as they are: noisy
+//   information = sum_bins w mu w                 the same on average, if w is what the slopes probably are
+//   noise       = covariance of the gap: Poisson noise of data and simulation.
+// The best weights are d ln mu/d parameters, for which the last three are the Fisher information.
 struct ScoreSystem {
   explicit ScoreSystem(int size)
       : gap(Eigen::VectorXd::Zero(size)),
         slope(Eigen::MatrixXd::Zero(size, size)),
+        information(Eigen::MatrixXd::Zero(size, size)),
         noise(Eigen::MatrixXd::Zero(size, size)) {}
   Eigen::VectorXd gap;
-  Eigen::MatrixXd slope, noise;
+  Eigen::MatrixXd slope, information, noise;
 };
 
 struct RunCounts {
@@ -32,6 +36,13 @@ struct RunCounts {
 
 // Adds a run: parameters of the ice are the first columns, its brightness (logarithm) and time zero the two
 // columns from `nuisance` on.
-void add_run(const RunLight& light, const RunCounts& counts, int nuisance, ScoreSystem& system);
+// `seen`: light in the same bins that the weights come from, fold by fold; this light, or the sum of this and
+// of earlier simulations of nearly the same ice.
+void add_run(const RunLight& light, const RunLight& seen, const RunCounts& counts, int nuisance,
+             ScoreSystem& system);
+
+// Scales the information of the parameters of a group so that its diagonal adds up to that of the slopes,
+// which are too noisy to be asked one by one. `groups`: a name for each of the ice's columns.
+void calibrate_information(const std::vector<std::string>& groups, ScoreSystem& system);
 
 }  // namespace floe

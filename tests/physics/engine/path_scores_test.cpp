@@ -155,6 +155,7 @@ BirefringenceNumbers crystals() {
   numbers.sigma_x = {0.06, 0, 1, 1};
   numbers.sigma_y = {0.05, 0, 1, 1};
   numbers.mean_x = {0.012, 0, 0, 1};
+  numbers.displacement = false;  // of which scores know nothing
   return numbers;
 }
 
@@ -195,11 +196,7 @@ Scene widened_beam() {
   scene.selections = {
       {"ahead", [](const SimulatedHit&, const Vec3& module) { return module.cross(beam).norm() < 1; }},
       {"left", [](const SimulatedHit&, const Vec3& module) { return module.dot(left) > 1; }},
-      {"right", [](const SimulatedHit&, const Vec3& module) { return module.dot(left) < -1; }},
-      // Beside the beam, but parallel to it.
-      {"displaced", [](const SimulatedHit& hit, const Vec3& module) {
-         return module.cross(beam).norm() > 1 && hit.direction.cast<double>().dot(beam) > 0.995;
-       }}};
+      {"right", [](const SimulatedHit&, const Vec3& module) { return module.dot(left) < -1; }}};
   return scene;
 }
 
@@ -329,11 +326,11 @@ Estimates mean_scores(const Scene& scene, const Number& number, double value, st
   const std::size_t ways = scene.selections.size();
   std::vector<std::unordered_map<std::uint64_t, Sums>> by_photon(ways);
   std::vector<Sums> all(ways);
-  Eigen::VectorXd score;
+  Eigen::VectorXd score, dwell;
   make_path_tracer(model, scene.oversize)
       ->trace(source, seed, 0, photons_of(simulate(model, source, scene.oversize, seed)),
               [&](const SimulatedHit& hit, const PathScores& path) {
-                map.scores(path, score);
+                map.scores(path, score, dwell);
                 select(scene, hit, [&](std::size_t s) {
                   for (Sums* sums : {&by_photon[s][hit.photon], &all[s]})
                     sums->hits += 1, sums->score += score(0);

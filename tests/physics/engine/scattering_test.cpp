@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "data/base/constants.h"
 #include "data/base/vec3.h"
 #include "propagation/engine/directions.h"
 #include "propagation/engine/random.h"
@@ -52,21 +54,28 @@ INSTANTIATE_TEST_SUITE_P(Functions, Scattering,
                                            std::pair(0.35f, 0.9f), std::pair(0.137f, 0.94f),
                                            std::pair(0.5f, 0.3f), std::pair(0.0f, 0.0f)));
 
-TEST(HenyeyGreenstein, FollowsItsDensity) {
-  const double g = 0.9;
-  const ScatteringFunction<float> function{0, static_cast<float>(g)};
-  const auto cumulative = [g](double cosine) {  // of Henyey-Greenstein
-    return (1 - g * g) / (2 * g) * (1 / std::sqrt(1 + g * g - 2 * g * cosine) - 1 / (1 + g));
-  };
-  constexpr int bins = 50;
-  std::vector<int> counts(bins);
+// The density, integrated over bins of the angle, against draws.
+TEST_P(Scattering, FollowsItsDensity) {
+  const auto [liu_fraction, g] = GetParam();
+  const ScatteringFunction<float> function{liu_fraction, g};
+  const ScatteringFunction<double> exact{liu_fraction, g};
+  constexpr int bins = 50, steps = 400;
+  std::vector<double> counts(bins), expected(bins);
   RandomStream random(4, 0, 0);
   for (int i = 0; i < draws; ++i) {
-    const double u = cumulative(1.0 - function.one_minus_cos(random.uniform()));
-    ++counts[std::min(bins - 1, static_cast<int>(u * bins))];
+    const double half_angle = std::asin(std::sqrt(function.one_minus_cos(random.uniform()) / 2));
+    ++counts[static_cast<std::size_t>(std::min(bins - 1.0, half_angle / (pi / 2) * bins))];
   }
-  double chi_square = 0;
-  for (const int count : counts) chi_square += std::pow(count - draws / bins, 2) / (draws / bins);
+  double sum = 0, chi_square = 0;
+  for (std::size_t bin = 0; bin < bins; ++bin) {
+    for (int step = 0; step < steps; ++step) {
+      const double angle = pi * (static_cast<double>(bin) + (step + 0.5) / steps) / bins;
+      expected[bin] += draws * exact.density(1 - std::cos(angle)) * std::sin(angle) * pi / (bins * steps);
+    }
+    sum += expected[bin];
+    chi_square += std::pow(counts[bin] - expected[bin], 2) / std::max(1.0, expected[bin]);
+  }
+  EXPECT_NEAR(sum / draws, 1, 1e-4);
   EXPECT_LT(chi_square, bins + 5 * std::sqrt(2.0 * bins));
 }
 

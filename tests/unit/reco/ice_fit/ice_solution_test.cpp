@@ -27,10 +27,10 @@ std::vector<IceParameter> family(const std::string& name, int count) {
 ScoreSystem known(const Eigen::VectorXd& best, const Eigen::VectorXd& errors) {
   const Eigen::Index count = best.size();
   ScoreSystem system(static_cast<int>(count) + 2);
-  system.slope.diagonal().head(count) = errors.cwiseAbs2().cwiseInverse();
-  system.slope.diagonal().tail(2).setConstant(1e4);
-  system.noise = system.slope;
-  system.gap.head(count) = system.slope.diagonal().head(count).cwiseProduct(best);
+  system.information.diagonal().head(count) = errors.cwiseAbs2().cwiseInverse();
+  system.information.diagonal().tail(2).setConstant(1e4);
+  system.noise = system.information;
+  system.gap.head(count) = system.information.diagonal().head(count).cwiseProduct(best);
   return system;
 }
 
@@ -39,15 +39,15 @@ const double inf = std::numeric_limits<double>::infinity();
 TEST(IceSolution, WithoutPriorsIsTheSolutionOfTheEquations) {
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
-  Eigen::MatrixXd slope(6, 6), root(6, 6);
+  Eigen::MatrixXd root(6, 6), noise(6, 6);
   ScoreSystem system(6);
   for (Eigen::Index i = 0; i < 6; ++i) {
     system.gap(i) = normal(random);
-    for (Eigen::Index k = 0; k < 6; ++k)
-      root(i, k) = normal(random), slope(i, k) = 10 * (i == k) + normal(random);
+    for (Eigen::Index k = 0; k < 6; ++k) root(i, k) = normal(random), noise(i, k) = normal(random);
   }
-  system.slope = slope;
-  system.noise = root * root.transpose() + Eigen::MatrixXd::Identity(6, 6);
+  const Eigen::MatrixXd slope = root * root.transpose() + 10 * Eigen::MatrixXd::Identity(6, 6);
+  system.information = slope;
+  system.noise = noise * noise.transpose() + Eigen::MatrixXd::Identity(6, 6);
   const auto parameters = family("", 4);  // of no family: no priors
   const IceSolution solution = solve_ice(system, parameters, {0, 0, 0, 0}, {}, 10);
   EXPECT_TRUE(solution.step.isApprox(slope.lu().solve(system.gap), 1e-4)) << solution.step.transpose();
@@ -138,18 +138,18 @@ TEST(IceSolution, IsTheBestWithinItsLimits) {
     Eigen::MatrixXd root(size, 40);
     for (Eigen::Index i = 0; i < root.size(); ++i) root.data()[i] = 10 * (normal(random) + 1);
     ScoreSystem system(size);
-    system.slope = system.noise = root * root.transpose();
+    system.information = system.noise = root * root.transpose();
     Eigen::VectorXd best(size);
     for (Eigen::Index i = 0; i < size; ++i) best(i) = 0.4 * normal(random);
-    system.gap = system.slope * best;
+    system.gap = system.information * best;
     auto parameters = family("", count);
     for (IceParameter& parameter : parameters) parameter.low = -0.3, parameter.high = 0.3;
     const IceSolution solution =
         solve_ice(system, parameters, std::vector<double>(std::size_t{count}, 0.0), {}, 10);
-    const Eigen::VectorXd gradient = system.slope * solution.step - system.gap;
+    const Eigen::VectorXd gradient = system.information * solution.step - system.gap;
     for (Eigen::Index i = 0; i < size; ++i) {
       // In units of what one standard deviation of this parameter alone makes.
-      const double slope = gradient(i) / std::sqrt(system.slope(i, i));
+      const double slope = gradient(i) / std::sqrt(system.information(i, i));
       const double limit = i < count ? 0.3 : i == count ? 0.7 : 20;
       const bool above = solution.step(i) > limit - 1e-6, below = solution.step(i) < 1e-6 - limit;
       at_limits += above || below;
@@ -173,9 +173,9 @@ TEST(IceSolution, ErrorsAreInfiniteWhereOnlyDifferencesAreKnown) {
   for (const int count : {2, 20}) {
     ScoreSystem system(count + 2);
     const Eigen::MatrixXd even = Eigen::MatrixXd::Constant(count, count, 1.0 / count);
-    system.slope.topLeftCorner(count, count) = 100 * (Eigen::MatrixXd::Identity(count, count) - even);
-    system.slope.diagonal().tail(2).setConstant(100);
-    system.noise = system.slope;
+    system.information.topLeftCorner(count, count) = 100 * (Eigen::MatrixXd::Identity(count, count) - even);
+    system.information.diagonal().tail(2).setConstant(100);
+    system.noise = system.information;
     const IceSolution solution = solve_ice(system, family("absorption", count),
                                            std::vector<double>(static_cast<std::size_t>(count), 0.0), {}, 10);
     for (const double error : solution.light_errors) EXPECT_EQ(error, inf) << count;

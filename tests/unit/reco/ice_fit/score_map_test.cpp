@@ -48,8 +48,8 @@ double score_of(const ModelParts& base, const PathScores& path, Change&& change)
   ModelParts changed = base;
   change(changed);
   EXPECT_TRUE(map.add(0, freeze(changed), step));
-  Eigen::VectorXd scores;
-  map.scores(path, scores);
+  Eigen::VectorXd scores, dwell;
+  map.scores(path, scores, dwell);
   EXPECT_EQ(scores.size(), 1);
   return scores(0);
 }
@@ -151,9 +151,9 @@ TEST(ScoreMap, KeepsParametersApart) {
   EXPECT_TRUE(map.add(2, freeze(dust), step));
   EXPECT_TRUE(map.add(0, freeze(scattering), step));
   EXPECT_TRUE(map.add(1, freeze(base), step));
-  Eigen::VectorXd scores;
+  Eigen::VectorXd scores, dwell;
   const PathScores path = some_path();
-  map.scores(path, scores);
+  map.scores(path, scores, dwell);
   ASSERT_EQ(scores.size(), 3);
   const auto alone = [&](auto&& change) { return score_of(base, path, change); };
   EXPECT_DOUBLE_EQ(scores(2), alone([&](ModelParts& parts) { parts = dust; }));

@@ -32,16 +32,31 @@ ClosedLight some_light(int bins, double counts, double scale) {
   return light;
 }
 
+// Places that say nothing but where a bin is among the others.
+Eigen::MatrixXd places_of(const ClosedLight& light) {
+  const Eigen::Index bins = light.base.size();
+  Eigen::MatrixXd places(bins, 4);
+  const Eigen::ArrayXd x = Eigen::ArrayXd::LinSpaced(bins, -1, 1);
+  places << Eigen::VectorXd::Ones(bins), x, x.square(), x.cube();
+  return places;
+}
+
 // What a simulation of so much light that nothing is left of chance gives.
 RunLight certain(const ClosedLight& light) {
   RunLight run;
+  run.places = places_of(light);
   for (LightFold& fold : run.folds) {
     fold.counts = light.base / light.scale;
     fold.slopes = fold.counts.asDiagonal() * light.slopes;
     fold.slope_squares = fold.counts.asDiagonal() * light.slopes.cwiseAbs2();
+    fold.dwell = fold.counts.replicate(1, 3);
     fold.delay = fold.counts.cwiseProduct(light.delay);
   }
   return run;
+}
+
+void add(const RunLight& light, const RunCounts& counts, int nuisance, ScoreSystem& system) {
+  add_run(light, light, counts, nuisance, system);
 }
 
 Eigen::MatrixXd all_slopes(const ClosedLight& light) {
@@ -56,10 +71,11 @@ TEST(ScoreSystem, IsTheFisherInformationWhereNothingIsNoisy) {
   counts.data = light.base + Eigen::VectorXd::LinSpaced(24, -5, 8);
   counts.scale = light.scale;
   ScoreSystem system(5);
-  add_run(certain(light), counts, 3, system);
+  add(certain(light), counts, 3, system);
   const Eigen::MatrixXd slopes = all_slopes(light);
   const Eigen::MatrixXd information = slopes.transpose() * light.base.asDiagonal() * slopes;
   EXPECT_TRUE(system.slope.isApprox(information, 1e-6));
+  EXPECT_TRUE(system.information.isApprox(information, 1e-6));
   EXPECT_TRUE(system.noise.isApprox(information, 1e-6));
   EXPECT_TRUE(system.gap.isApprox(slopes.transpose() * (counts.data - light.base), 1e-6));
 }
@@ -72,10 +88,11 @@ TEST(ScoreSystem, SimulatedNoiseTakesInformationAway) {
   counts.data = light.base;
   counts.scale = light.scale;
   ScoreSystem system(5);
-  add_run(certain(light), counts, 3, system);
+  add(certain(light), counts, 3, system);
   const Eigen::MatrixXd slopes = all_slopes(light);
   const Eigen::MatrixXd information = slopes.transpose() * (light.base / 1.2).asDiagonal() * slopes;
   EXPECT_TRUE(system.slope.isApprox(information, 1e-9));
+  EXPECT_TRUE(system.information.isApprox(information, 1e-9));
   EXPECT_TRUE(system.noise.isApprox(information, 1e-9));
   EXPECT_LT(system.gap.norm(), 1e-9);
 }
@@ -87,11 +104,12 @@ TEST(ScoreSystem, ModelErrorTakesInformationAway) {
   counts.scale = light.scale;
   counts.model_error = 0.1;
   ScoreSystem system(5);
-  add_run(certain(light), counts, 3, system);
+  add(certain(light), counts, 3, system);
   const Eigen::ArrayXd known = light.base.array() / (1 + 0.01 * light.base.array());
   const Eigen::MatrixXd slopes = all_slopes(light);
   const Eigen::MatrixXd information = slopes.transpose() * known.matrix().asDiagonal() * slopes;
   EXPECT_TRUE(system.slope.isApprox(information, 1e-6));
+  EXPECT_TRUE(system.information.isApprox(information, 1e-6));
   EXPECT_TRUE(system.noise.isApprox(information, 1e-6));
 }
 
@@ -101,9 +119,9 @@ TEST(ScoreSystem, RunsShareTheIceAndHaveTheirOwnBrightness) {
   counts.data = light.base;
   counts.scale = light.scale;
   ScoreSystem one(5), both(7);
-  add_run(certain(light), counts, 3, one);
-  add_run(certain(light), counts, 3, both);
-  add_run(certain(light), counts, 5, both);
+  add(certain(light), counts, 3, one);
+  add(certain(light), counts, 3, both);
+  add(certain(light), counts, 5, both);
   EXPECT_TRUE(both.slope.topLeftCorner(3, 3).isApprox(2 * one.slope.topLeftCorner(3, 3)));
   for (const Eigen::Index run : {3, 5}) {
     EXPECT_TRUE(both.slope.block(run, run, 2, 2).isApprox(one.slope.block(3, 3, 2, 2)));
@@ -131,12 +149,27 @@ TEST(ScoreSystem, SlopesOfNoiseWeighLittle) {
     RunCounts counts;
     counts.data = light.base;
     ScoreSystem system(5);
-    add_run(run, counts, 3, system);
+    add(run, counts, 3, system);
     taken += system.noise(0, 0) / trials;
   }
   // Taken at face value, noise of variance 400/counts is worth 400 in each of 24 bins. Left of it is the
   // share power/(power + noise), squared: the power of pure noise is 0.2 of it at one sigma, so 0.02 or so.
   EXPECT_LT(taken, 0.06 * 24 * 400);
+}
+
+// Whatever single slopes say, a group's information adds up to theirs; other columns stay.
+TEST(ScoreSystem, InformationIsCalibratedByGroups) {
+  ScoreSystem system(5);
+  system.information = Eigen::MatrixXd::Constant(5, 5, 1) + Eigen::MatrixXd::Identity(5, 5);
+  system.slope.diagonal() << 1, 1.5, 9, 7, 7;
+  calibrate_information({"absorption", "absorption", "flow-azimuth"}, system);
+  EXPECT_NEAR(system.information(0, 0), 2 * 2.5 / 4, 1e-12);
+  EXPECT_NEAR(system.information(1, 1), 2 * 2.5 / 4, 1e-12);
+  EXPECT_NEAR(system.information(0, 1), 2.5 / 4, 1e-12);
+  EXPECT_NEAR(system.information(2, 2), 2 * 1.5, 1e-12);  // no further than that
+  EXPECT_NEAR(system.information(0, 2), std::sqrt(2.5 / 4 * 1.5), 1e-12);
+  EXPECT_NEAR(system.information(3, 3), 2, 1e-12);
+  EXPECT_NEAR(system.information(0, 4), std::sqrt(2.5 / 4), 1e-12);
 }
 
 struct Noise {
@@ -161,6 +194,7 @@ Eigen::VectorXd draw(const Eigen::VectorXd& mean, int seen, std::mt19937_64& ran
 RunLight simulated(const ClosedLight& light, const Noise& noise, std::mt19937_64& random) {
   std::normal_distribution<double> normal;
   RunLight run;
+  run.places = places_of(light);
   for (LightFold& fold : run.folds) {
     fold.counts = draw(light.base / light.scale, noise.seen, random);
     fold.slopes = fold.counts.asDiagonal() * light.slopes;
@@ -169,6 +203,7 @@ RunLight simulated(const ClosedLight& light, const Noise& noise, std::mt19937_64
         fold.slopes(b, p) += noise.slopes * std::sqrt(fold.counts(b)) * normal(random);
     fold.slope_squares =
         fold.counts.asDiagonal() * (light.slopes.cwiseAbs2().array() + noise.slopes * noise.slopes).matrix();
+    fold.dwell = fold.counts.replicate(1, 3);
     fold.delay = fold.counts.cwiseProduct(light.delay);
   }
   return run;
@@ -200,7 +235,7 @@ TEST_P(SolvedParameters, AreUnbiasedWithTheScatterOfTheirCovariance) {
       counts.data = draw(mean, noise.seen, random);
       counts.scale = light.scale;
       counts.dispersion = counts.data_dispersion = noise.seen;
-      add_run(simulated(light, noise, random), counts, nuisance, system);
+      add(simulated(light, noise, random), counts, nuisance, system);
     }
     const IceSolution solution = solve_ice(system, free_parameters(), {0, 0, 0}, {}, 50);
     const Eigen::Vector3d gap = solution.step.head(3) - truth;
