@@ -28,6 +28,7 @@ struct FitIceCommand {
   int layers = 10;
   std::optional<std::string> depths;
   bool layer_by_layer = false;
+  std::vector<EffectSetting> start;
   IceFitOptions options;
   SimulationSettings run;
   OutputOptions output;
@@ -45,16 +46,6 @@ DepthRange depth_range(const FitIceCommand& command, const Detector& detector, c
   return range;
 }
 
-// An ice directory holds ice, and nothing else.
-void expect_ice_only(const IceParameter& parameter, const Model& base) {
-  const double step = (parameter.start > parameter.low ? -1e-3 : 1e-3) * parameter.scale;
-  const Model changed = with_parameters(base, {parameter}, {parameter.start + step});
-  if (changed.ice->hash() == base.ice->hash())
-    throw UsageError(
-        fmt::format("--fit {}: it does not belong to the ice, so that no ice directory could hold the result",
-                    parameter.name));
-}
-
 std::vector<IceParameter> parameters_of(const FitIceCommand& command, const Model& base,
                                         const DepthRange& range) {
   std::vector<IceParameter> parameters;
@@ -64,13 +55,49 @@ std::vector<IceParameter> parameters_of(const FitIceCommand& command, const Mode
       parameters.insert(parameters.end(), layers.begin(), layers.end());
     } else {
       parameters.push_back(effect_parameter(name, base));
-      expect_ice_only(parameters.back(), base);
     }
     const auto same = [&](const IceParameter& p) { return p.name == parameters.back().name; };
     if (std::count_if(parameters.begin(), parameters.end(), same) > 1)
       throw UsageError(fmt::format("--fit: {} is named twice", name));
   }
   return parameters;
+}
+
+// Lets fits of effects begin elsewhere than at the model's own values.
+void begin_at(const std::vector<EffectSetting>& start, std::vector<IceParameter>& parameters) {
+  for (const EffectSetting& setting : start) {
+    const std::string text = text_of(setting);
+    const auto same = [&](const IceParameter& p) {
+      return p.effect && p.effect->effect == setting.effect && p.effect->parameter == setting.parameter;
+    };
+    const auto found = std::find_if(parameters.begin(), parameters.end(), same);
+    if (found == parameters.end())
+      throw UsageError(fmt::format(
+          "--start {}: it is not fitted; expected a parameter of an effect that --fit names", text));
+    if (setting.value < found->low || setting.value > found->high)
+      throw UsageError(
+          fmt::format("--start {}: expected a value from {:g} to {:g}", text, found->low, found->high));
+    found->start = setting.value;
+  }
+}
+
+// An ice directory holds ice, and nothing else; and a fit needs something to hold on to.
+void expect_changes_of_ice(const std::vector<IceParameter>& parameters, const Model& base) {
+  std::vector<double> numbers;
+  for (const IceParameter& parameter : parameters) numbers.push_back(parameter.start);
+  const Model at_start = with_parameters(base, parameters, numbers);
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    const IceParameter& parameter = parameters[p];
+    if (!parameter.effect) continue;
+    std::vector<double> moved = numbers;
+    moved[p] += (parameter.start > parameter.low ? -1e-3 : 1e-3) * parameter.scale;
+    if (with_parameters(base, parameters, moved).ice->hash() != at_start.ice->hash()) continue;
+    throw UsageError(fmt::format(
+        "--fit {}: where it starts, at {:g}, it changes nothing of the ice. Begin elsewhere with --start (a "
+        "band of "
+        "factor 1 has no depth); what belongs to modules or flashers cannot be held by an ice directory",
+        parameter.name, parameter.start));
+  }
 }
 
 void run_fit_ice(const FitIceCommand& command) {
@@ -83,7 +110,9 @@ void run_fit_ice(const FitIceCommand& command) {
   const std::vector<Event> events = read_flasher_file(command.data);
   const Model base = load_model(command.model);
   FlasherData data = flasher_data(*base.detector, events);
-  const auto parameters = parameters_of(command, base, depth_range(command, *base.detector, data));
+  auto parameters = parameters_of(command, base, depth_range(command, *base.detector, data));
+  begin_at(command.start, parameters);
+  expect_changes_of_ice(parameters, base);
 
   IceFit fit;
   {
@@ -116,10 +145,17 @@ void add_fit_ice(CLI::App& floe, const std::string& command_line) {
   app.add_option_function<std::string>(
          "--fit", [command = command.get()](const std::string& list) { command->fit = split_list(list); },
          "What to fit: absorption, scattering, birefringence (a factor for each layer), and parameters of "
-         "effects of "
-         "the ice, as floe effects lists them")
+         "effects of the ice, as floe effects lists them")
       ->type_name("NAME[,NAME]")
       ->default_str("absorption,scattering");
+  app.add_option_function<std::string>(
+         "--start",
+         [command = command.get()](const std::string& list) {
+           for (const std::string& text : split_list(list))
+             command->start.push_back(parse_effect_setting(text));
+         },
+         "Where fitted parameters of effects begin. Default: where the model has them")
+      ->type_name("EFFECT.PARAMETER=VALUE[,...]");
   add_integer(app, "--layers", 1, 1000, "Layers of equal thickness that the depths are divided into",
               [command = command.get()](std::int64_t layers) { command->layers = static_cast<int>(layers); })
       ->default_str("10");
@@ -143,7 +179,9 @@ void add_fit_ice(CLI::App& floe, const std::string& command_line) {
       "Examples:\n"
       "  floe fit-ice runs.h5 --ice my-ice -o fitted\n"
       "  floe fit-ice runs.h5 --ice my-ice --fit birefringence,absorption,scattering --layers 10 -o fitted\n"
-      "  floe fit-ice runs.hits --ice south-pole --fit absorption-anisotropy.k1,flow-azimuth -o fitted");
+      "  floe fit-ice runs.hits --ice south-pole --fit absorption-anisotropy.k1,flow-azimuth -o fitted\n"
+      "  floe fit-ice runs.h5 --fit absorption-layer.depth,absorption-layer.factor "
+      "--start absorption-layer.depth=2000,absorption-layer.factor=1.2 -o fitted");
   app.callback([command] { run_fit_ice(*command); });
 }
 

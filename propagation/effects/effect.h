@@ -21,6 +21,7 @@ struct EffectParameter {
   double null_value;           // at which the model is what it is without the effect
   double low, high;            // valid range, inclusive; the null value is valid wherever it lies
   bool names_a_place = false;  // a whole number that names a string or a module: nothing to be fitted
+  double large_change = 0;     // fits take no longer step; 0: a twenty-fifth of the range
 };
 
 class Effect {

@@ -12,9 +12,11 @@ namespace {
 
 std::vector<EffectParameter> layer_parameters(const IceTables& ice, const std::string& what) {
   const double middle = ice.layers.empty() ? 0 : (ice.layers.front().depth + ice.layers.back().depth) / 2;
-  return {{"depth", "m", "of the middle of the changed ice, below the surface", middle, 0, 5000},
-          {"width", "m", "of the changed ice, from its top to its bottom", 50, 1, 2000},
-          {"factor", "", "multiplies " + what + " there", 1, 0.1, 10}};
+  constexpr double a_layer = 20;  // the light knows little of what lies further off
+  return {
+      {"depth", "m", "of the middle of the changed ice, below the surface", middle, 0, 5000, false, a_layer},
+      {"width", "m", "of the changed ice, from its top to its bottom", 50, 1, 2000, false, a_layer},
+      {"factor", "", "multiplies " + what + " there", 1, 0.1, 10}};
 }
 
 // Calls change(row, factor) for the rows in the changed ice. One that its edge cuts gets the factor in

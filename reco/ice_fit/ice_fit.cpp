@@ -17,12 +17,14 @@ namespace floe {
 
 namespace {
 
-constexpr double longest_step = 2;  // of a round, in the parameter's scale
+constexpr double longest_step = 0.7;  // of a round, in the parameter's scale
 // Steps so small, in their errors, are the last: root mean square and largest. New simulations in every round
 // keep them from getting much smaller.
 constexpr double settled = 0.8, settled_most = 2.5;
 // Differences, in the parameter's scale: for weights, which are exact, and between simulations.
 constexpr double weight_step = 1e-3, pair_step = 0.5;
+// Far from the streams of simulated data.
+constexpr std::uint64_t first_stream = std::uint64_t{1} << 40;
 constexpr std::uint64_t streams_a_run = 1 << 10, streams_a_round = 1 << 20;
 
 // What is known of a run between rounds.
@@ -78,7 +80,7 @@ class Fit {
             photons,
             options_.oversize,
             options_.seed,
-            static_cast<std::uint64_t>(round_) * streams_a_round + r * streams_a_run + purpose,
+            first_stream + static_cast<std::uint64_t>(round_) * streams_a_round + r * streams_a_run + purpose,
             options_.threads};
   }
 

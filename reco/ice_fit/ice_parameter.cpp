@@ -13,7 +13,7 @@ namespace floe {
 
 namespace {
 
-constexpr double usual_change = 0.04;  // of the range of an effect's parameter
+constexpr double large_change = 0.04;  // of the range of an effect's parameter, where it does not say itself
 
 struct FamilyTraits {
   const char* name;
@@ -123,7 +123,7 @@ IceParameter effect_parameter(std::string_view name, const Model& base) {
   parameter.start = found->null_value;
   parameter.low = found->low;
   parameter.high = found->high;
-  parameter.scale = (found->high - found->low) * usual_change;
+  parameter.scale = found->large_change > 0 ? found->large_change : (found->high - found->low) * large_change;
   parameter.effect = EffectSetting{effect.name(), wanted, 0};
   return parameter;
 }

@@ -19,8 +19,8 @@ struct IceParameter {
   std::string unit;          // of the value that is shown; empty for a pure number
   bool logarithmic = false;  // the value shown is the exponential of the number
   double start = 0, low = 0, high = 0;
-  double scale = 0.35;  // of a usual change: steps of the fit are of this order
-  double prior = 0;     // width of a Gaussian about the start; 0: that of its family, or none
+  double scale = 1;  // of a large change: no step of the fit is longer
+  double prior = 0;  // width of a Gaussian about the start; 0: that of its family, or none
   // Neighbours of one family, in order of depth, are held together by the smoothness prior.
   std::string family;
   double depth = 0;  // of the middle, for families over depth [m]

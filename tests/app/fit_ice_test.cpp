@@ -62,6 +62,24 @@ TEST_F(FitIce, FindsMoreAbsorptionAndLeavesAnIceModelThatIsReadAgain) {
   EXPECT_NE(text_of("fitted/improved-ice/CHANGES.txt").find("absorption-scale.factor"), std::string::npos);
 }
 
+// A band of dust, from a start near by.
+TEST_F(FitIce, FindsThePlaceOfABand) {
+  simulate("--with absorption-layer.depth=1780,absorption-layer.factor=2");
+  floe_well(
+      "fit-ice runs.h5 --fit absorption-layer.depth,absorption-layer.factor --start "
+      "absorption-layer.depth=1795,absorption-layer.factor=1.3 --light 2 "
+      "--least-hits 6000 --quiet -o fitted");
+  const Json found = result();
+  const double truths[] = {1780, 2}, largest_errors[] = {8, 0.4};
+  for (int i = 0; i < 2; ++i) {
+    const Json& parameter = found["parameters"][i];
+    const double value = parameter["value"], error = parameter["error"];
+    EXPECT_GT(error, 0) << i;
+    EXPECT_LT(error, largest_errors[i]) << i;
+    EXPECT_NEAR(value, truths[i], 4 * error) << i;
+  }
+}
+
 TEST_F(FitIce, TheResultDoesNotDependOnThreads) {
   simulate("");
   const std::string fit =
@@ -148,9 +166,13 @@ TEST_F(FitIce, RefusesWhatMakesNoSense) {
   refuses("runs.h5 --fit absorbtion -o new", 2, "did you mean 'absorption");
   refuses("runs.h5 --fit absorption-layer -o new", 2, "expected one of depth, width, factor");
   refuses("runs.h5 --fit string-efficiency.factor -o new", 2, "fit of its own");
-  refuses("runs.h5 --fit angular-acceptance -o new", 2, "does not belong to the ice");
+  refuses("runs.h5 --fit angular-acceptance -o new", 2, "changes nothing of the ice");
   refuses("runs.h5 --fit absorption,absorption -o new", 2, "named twice");
   refuses("runs.h5 --depths 2000,1500 -o new", 2, "shallower depth first");
+  refuses("runs.h5 --fit absorption-layer.depth,absorption-layer.factor -o new", 2, "Begin elsewhere");
+  refuses("runs.h5 --fit absorption --start flow-azimuth.azimuth=100 -o new", 2, "it is not fitted");
+  refuses("runs.h5 --fit flow-azimuth --start flow-azimuth.azimuth=1000 -o new", 2, "from -360 to 360");
+  refuses("runs.h5 --fit flow-azimuth --start flow-azimuth -o new", 2, "EFFECT.PARAMETER=VALUE");
   refuses("runs.h5 --layers 0 -o new", 2, "--layers");
   refuses("nothing.h5 -o new", 3, "nothing.h5");
   refuses("runs.h5 -o missing/new", 5, "missing");
