@@ -127,6 +127,8 @@ class Fit {
     const auto index = static_cast<std::size_t>(p);
     const IceParameter& parameter = fit_.parameters[index];
     const double number = fit_.numbers[index], reach = pair_step * parameter.scale;
+    // It acts all over the ice: light dwells in it wherever it goes.
+    for (LightFold& fold : light.folds) fold.dwell.col(p) = fold.counts;
     const double down = std::max(-reach, parameter.low - number),
                  up = std::min(reach, parameter.high - number);
     for (const double step : {down, up}) {

@@ -36,7 +36,8 @@ PathScores some_path() {
   path.layers.resize(201);
   path.lowest = 80, path.highest = 140;
   for (int i = path.lowest; i <= path.highest; ++i)
-    path.layers[static_cast<std::size_t>(i)] = {-20 - 0.1 * i, 7 - 0.3 * i, 0.4 + 0.01 * i, -3 + 0.02 * i};
+    path.layers[static_cast<std::size_t>(i)] = {-20 - 0.1 * i, 7 - 0.3 * i, 0.4 + 0.01 * i, -3 + 0.02 * i,
+                                                   20 + 0.1 * i};
   path.absorption_anisotropy = {0.3, -0.2, 0.5};
   return path;
 }
@@ -159,6 +160,26 @@ TEST(ScoreMap, KeepsParametersApart) {
   EXPECT_DOUBLE_EQ(scores(2), alone([&](ModelParts& parts) { parts = dust; }));
   EXPECT_DOUBLE_EQ(scores(0), alone([&](ModelParts& parts) { parts = scattering; }));
   EXPECT_EQ(scores(1), 0);
+}
+
+// Light dwells in the layers that a parameter changes, and with the anisotropy in all of them.
+TEST(ScoreMap, TellsHowLongLightDwellsWhereAParameterActs) {
+  const ModelParts base = coloured_parts();
+  ScoreMap map(freeze(base), wavelength, 3);
+  ModelParts both = base, anisotropy = base;
+  both.ice.layers[row_of_change].dust_absorption *= std::exp(step);
+  both.ice.layers[row_of_change + 1].effective_scattering *= std::exp(step);
+  anisotropy.ice.configuration.absorption_anisotropy->k1 += step;
+  EXPECT_TRUE(map.add(0, freeze(both), step));
+  EXPECT_TRUE(map.add(1, freeze(anisotropy), step));
+  const PathScores path = some_path();
+  Eigen::VectorXd scores, dwell;
+  map.scores(path, scores, dwell);
+  double length = 0;
+  for (int i = path.lowest; i <= path.highest; ++i) length += path.layers[static_cast<std::size_t>(i)].length;
+  EXPECT_DOUBLE_EQ(dwell(0), path.layers[layer_of_change].length + path.layers[layer_of_change - 1].length);
+  EXPECT_DOUBLE_EQ(dwell(1), length);
+  EXPECT_EQ(dwell(2), 0);
 }
 
 TEST(ScoreMap, RefusesIceThatPathsSayNothingOf) {
