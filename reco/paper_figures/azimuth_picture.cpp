@@ -13,7 +13,7 @@ namespace floe {
 
 namespace {
 
-constexpr double panel_width = 400, panel_height = 230, left = 74, top = 104, gap_x = 40, gap_y = 62;
+constexpr double panel_width = 400, panel_height = 230, left = 74, top = 118, gap_x = 40, gap_y = 76;
 constexpr int columns = 2;
 constexpr const char* grey = "#666666";
 constexpr std::array<const char*, 6> colours{"#0b6fa4", "#d1495b", "#3c8d40",
@@ -93,16 +93,16 @@ void draw_panel(Svg& svg, const Frame& frame, const AzimuthModel& model, const A
   draw_curve(svg, frame, model.fit);
   draw_frame(svg, {frame.x, frame.y}, panel_width, panel_height);
   const AzimuthFit& fit = model.fit;
-  svg.text({frame.x, frame.y - 9}, model.name, 14, Anchor::start, "#222222", true);
+  svg.text({frame.x, frame.y - 26}, model.name, 14, Anchor::start, "#222222", true);
   // The direction of what may be noise says nothing.
   const std::string direction = fit.isotropy_p_value() < 0.01
                                     ? fmt::format(", \u03c6 {:.1f} \u00b1 {:.1f}\u00b0", fit.phase() / degree,
                                                   fit.phase_error() / degree)
                                     : "";
-  svg.text({frame.x + panel_width, frame.y - 9},
+  svg.text({frame.x, frame.y - 9},
            fmt::format("c {:.3f} \u00b1 {:.3f}, max/min {:.2f} \u00b1 {:.2f}{}", fit.amplitude(),
                        fit.amplitude_error(), fit.max_over_min(), fit.max_over_min_error(), direction),
-           12, Anchor::end);
+           12);
 }
 
 void draw_legend(Svg& svg, const AzimuthStudy& study) {

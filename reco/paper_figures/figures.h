@@ -8,5 +8,8 @@ namespace floe {
 
 PaperFigure azimuth_figure(const FigureSettings& settings, const Progress& progress);
 PaperFigure light_curves_figure(const FigureSettings& settings, const Progress& progress);
+PaperFigure llh_space_figure(const FigureSettings& settings, const Progress& progress);
+PaperFigure stratigraphy_figure(const FigureSettings& settings, const Progress& progress);
+PaperFigure five_events_figure(const FigureSettings& settings, const Progress& progress);
 
 }  // namespace floe

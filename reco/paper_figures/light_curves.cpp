@@ -16,8 +16,10 @@ namespace floe {
 
 namespace {
 
-constexpr double quick_photons = 8e9;    // N: some 1500 photoelectrons on a string's modules
+constexpr double quick_photons = 4e9;    // N
 constexpr double depth_difference = 30;  // of the modules, at most: their distances are alike [m]
+// Clear ice, where much light gets to the next string.
+constexpr double top = 2200, bottom = 2300;  // of the flasher [m]
 constexpr std::uint64_t first_stream = std::uint64_t{1} << 53;
 
 // Between two axes, neither of which has a sign: [0, pi/2].
@@ -57,12 +59,11 @@ Models models_of(const Model& full) {
 }
 
 CurvePanel panel_of(const std::string& key, const Neighbour& neighbour, double flow) {
-  return {
-      fmt::format("{} the flow: string {}, {:.0f} m away, {:.0f}\u00b0 off the flow", key, neighbour.string,
-                  neighbour.distance, angle_between_axes(neighbour.azimuth, flow) / degree),
-      key,
-      arrival_edges(neighbour.distance),
-      {}};
+  return {fmt::format("{}: string {}, {:.0f} m away, {:.0f}\u00b0 off the flow", key, neighbour.string,
+                      neighbour.distance, angle_between_axes(neighbour.azimuth, flow) / degree),
+          key,
+          arrival_edges(neighbour.distance),
+          {}};
 }
 
 void add_numbers(const CurvePanel& panel, const LightCurves& curves, std::vector<FigureNumber>& numbers) {
@@ -83,6 +84,8 @@ PaperFigure light_curves_figure(const FigureSettings& settings, const Progress& 
   const double flow = settings.model.ice->flow_azimuth();
   EmitterRule rule;
   rule.count = 1;
+  rule.top = top;
+  rule.bottom = bottom;
   const Emitter emitter = narrowed(choose_emitters(detector, rule).front(), depth_difference, detector);
   const Neighbour* const strings[] = {&nearest_to_axis(emitter, flow),
                                       &nearest_to_axis(emitter, flow + pi / 2)};

@@ -68,15 +68,24 @@ void draw_axes(Svg& svg, const Frame& frame, bool first) {
   }
 }
 
+// Steps, with gaps where a bin has less light than the axis shows: a logarithm has no zero.
 void draw_curve(Svg& svg, const Frame& frame, const LightCurves& curves, const CurvePanel& panel,
                 const ArrivalCurve& curve, const Stroke& stroke) {
   std::vector<Svg::Point> points;
+  const auto finish = [&] {
+    if (!points.empty()) svg.polyline(points, stroke);
+    points.clear();
+  };
   for (std::size_t bin = 0; bin < curve.charge.size(); ++bin) {
     const double value = density(curves, panel, curve.charge[bin], bin);
+    if (!(value > 0 && std::log10(value) > frame.low)) {
+      finish();
+      continue;
+    }
     points.push_back(frame.at(panel.edges[bin], value));
     points.push_back(frame.at(panel.edges[bin + 1], value));
   }
-  svg.polyline(points, stroke);
+  finish();
 }
 
 void draw_legend(Svg& svg, const LightCurves& curves) {

@@ -40,7 +40,10 @@ Number number_of(const Json& figure, const std::string& of, const std::string& n
 }
 
 TEST_F(Figures, OfAzimuthSayHowMuchLightGoesAlongTheFlow) {
-  const Outcome outcome = floe_well("figures --only azimuth --photons 4e8 --seed 5 --json same.json -o made");
+  // The built-in ice is dark at these depths: with less absorption a test needs fewer photons.
+  const Outcome outcome = floe_well(
+      "figures --only azimuth --photons 4e8 --seed 5 --with absorption-scale.factor=0.4 --json same.json -o "
+      "made");
   EXPECT_EQ(files_in(folder_.path()), (std::set<std::string>{"made", "made/azimuth.csv", "made/azimuth.svg",
                                                              "made/figures.json", "same.json"}));
   EXPECT_EQ(text_of("same.json"), text_of("made/figures.json"));
@@ -50,11 +53,9 @@ TEST_F(Figures, OfAzimuthSayHowMuchLightGoesAlongTheFlow) {
   EXPECT_EQ(figure["name"], "azimuth");
   EXPECT_EQ(figure["files"], (Json{"azimuth.svg", "azimuth.csv"}));
   const Number same = number_of(figure, "isotropic", "c along the flow"),
-               absorption = number_of(figure, "absorption anisotropy", "c along the flow"),
-               crystals = number_of(figure, "birefringence", "c along the flow");
+               full = number_of(figure, "full ice", "c along the flow");
   EXPECT_NEAR(same.value, 0, 4 * same.error);
-  EXPECT_GT(absorption.value, 3 * absorption.error);
-  EXPECT_GT(crystals.value, 3 * crystals.error);
+  EXPECT_GT(full.value, 4 * full.error);
   const Number phi = number_of(figure, "full ice", "phi");
   EXPECT_NEAR(phi.value, 130, 4 * phi.error);
   EXPECT_NE(outcome.out.find("max/min"), std::string::npos) << outcome.out;
@@ -68,7 +69,7 @@ TEST_F(Figures, OfAzimuthSayHowMuchLightGoesAlongTheFlow) {
 }
 
 TEST_F(Figures, OfLightCurvesHaveACurveForEachDescription) {
-  floe_well("figures --only light-curves --photons 5e8 --quiet -o made");
+  floe_well("figures --only light-curves --photons 2e8 --quiet -o made");
   const Json figure = json_of("made/figures.json")["figures"][0];
   for (const char* model : {"isotropic", "birefringence", "birefringence and absorption anisotropy"})
     for (const char* side : {", along the flow", ", across the flow"})
@@ -79,15 +80,22 @@ TEST_F(Figures, OfLightCurvesHaveACurveForEachDescription) {
   EXPECT_NE(figure["remarks"].dump().find("scattering anisotropy: the same as isotropic"), std::string::npos);
 
   floe_well(
-      "figures --only light-curves --photons 5e8 --quiet --with scattering-anisotropy.k1=-0.1 -o stretched");
+      "figures --only light-curves --photons 2e8 --quiet --with scattering-anisotropy.k1=-0.1 -o stretched");
   EXPECT_NE(text_of("stretched/light-curves.svg").find("scattering anisotropy"), std::string::npos);
 }
 
 TEST_F(Figures, DoNotDependOnThreads) {
-  floe_well("figures --only azimuth --photons 1e8 --quiet --threads 1 -o one");
-  floe_well("figures --only azimuth --photons 1e8 --quiet --threads 3 -o three");
-  for (const char* file : {"azimuth.csv", "azimuth.svg"})
+  floe_well("figures --only light-curves --photons 1e8 --quiet --threads 1 -o one");
+  floe_well("figures --only light-curves --photons 1e8 --quiet --threads 3 -o three");
+  for (const char* file : {"light-curves.csv", "light-curves.svg"})
     EXPECT_EQ(text_of(std::string("one/") + file), text_of(std::string("three/") + file)) << file;
+}
+
+// With hardly any light, a string sees none.
+TEST_F(Figures, WithoutLightAreAnError) {
+  expect_error(run_floe(folder_.path(), "figures --only azimuth --photons 1e6 -o made"), 4,
+               "more photons are needed");
+  EXPECT_TRUE(files_in(folder_.path()).empty());
 }
 
 class WrongFigures : public testing::TestWithParam<WrongCase> {};
