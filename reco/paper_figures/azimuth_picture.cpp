@@ -37,11 +37,14 @@ double scaled(const AzimuthModel& model, const AzimuthPoint& point) {
 // All panels share one scale.
 std::pair<double, double> range_of(const AzimuthStudy& study) {
   double low = 0.9, high = 1.1;
-  for (const AzimuthModel& model : study.models)
+  for (const AzimuthModel& model : study.models) {
+    low = std::min(low, 1 - model.fit.amplitude());
+    high = std::max(high, 1 + model.fit.amplitude());
     for (const AzimuthPoint& point : model.points) {
       low = std::min(low, scaled(model, point) * (1 - point.relative_error));
       high = std::max(high, scaled(model, point) * (1 + point.relative_error));
     }
+  }
   const double margin = 0.06 * (high - low);
   return {std::max(0.0, low - margin), high + margin};
 }
@@ -126,7 +129,7 @@ void draw_legend(Svg& svg, const AzimuthStudy& study) {
 std::string azimuth_picture(const AzimuthStudy& study, const std::string& title) {
   const int rows = (static_cast<int>(study.models.size()) + columns - 1) / columns;
   const double width = left + columns * panel_width + (columns - 1) * gap_x + 24,
-               height = top + rows * (panel_height + gap_y) + 4;
+               height = top + rows * (panel_height + gap_y) - 20;
   Svg svg(width, height);
   svg.text({left, 32}, title, 16, Anchor::start, "#222222", true);
   draw_legend(svg, study);

@@ -17,7 +17,6 @@ const std::vector<FigureMaker>& paper_figures() {
       {"light-curves", "Arrival times along the flow and across it", light_curves_figure},
       {"llh-space", "Likelihood of a layer's flashers over birefringence and scattering", llh_space_figure},
       {"stratigraphy", "Ice of several layers fitted to four flashers", stratigraphy_figure},
-      {"five-events", "Five cascades of 50 TeV fitted with and without birefringence", five_events_figure},
   };
   return all;
 }
