@@ -16,6 +16,7 @@ void add_study(CLI::App& floe);
 void add_fit_ice(CLI::App& floe, const std::string& command_line);
 void add_ladder(CLI::App& floe);
 void add_scan(CLI::App& floe, const std::string& command_line);
+void add_figures(CLI::App& floe, const std::string& command_line);
 void add_import(CLI::App& floe, const std::string& command_line);
 void add_export(CLI::App& floe);
 void add_merge(CLI::App& floe, const std::string& command_line);

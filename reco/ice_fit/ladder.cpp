@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "data/base/error.h"
+#include "reco/ice_fit/anisotropies.h"
 #include "reco/ice_fit/run_likelihood.h"
 #include "reco/ice_fit/run_plan.h"
 
@@ -18,35 +19,14 @@ constexpr int rounds_of_folds = 3;  // they start where the fit to all runs ende
 constexpr std::uint64_t first_stream = std::uint64_t{1} << 59, scout_stream = std::uint64_t{1} << 60,
                         held_out_stream = std::uint64_t{1} << 61;
 
-struct RungPlan {
-  const char* name;
-  std::vector<const char*> effects;
-};
-const std::vector<RungPlan>& plans() {
-  static const std::vector<RungPlan> all{
-      {"isotropic", {}},
-      {"absorption anisotropy", {"absorption-anisotropy"}},
-      {"scattering anisotropy", {"scattering-anisotropy"}},
-      {"birefringence", {"birefringence"}},
-      {"birefringence and absorption anisotropy", {"birefringence", "absorption-anisotropy"}}};
-  return all;
-}
-
-Model isotropic(const Model& base) {
-  ModelParts parts = parts_of(base);
-  for (const char* effect : {"birefringence", "absorption-anisotropy", "scattering-anisotropy"})
-    switch_off(parts.ice, effect);
-  return freeze(std::move(parts));
-}
-
-std::vector<IceParameter> parameters_of(const RungPlan& plan, const Model& base) {
+std::vector<IceParameter> parameters_of(const AnisotropyDescription& plan, const Model& base) {
   std::vector<IceParameter> parameters;
   for (const char* effect : {"absorption-scale", "scattering-scale"})
     parameters.push_back(effect_parameter(effect, base));
-  for (const char* effect : plan.effects) {
+  for (const std::string_view effect : plan.effects) {
     parameters.push_back(effect_parameter(effect, base));
     // Birefringence has no slope where there is none.
-    if (effect == std::string_view("birefringence")) parameters.back().start = 1;
+    if (effect == "birefringence") parameters.back().start = 1;
   }
   return parameters;
 }
@@ -67,8 +47,9 @@ class Climb {
     Ladder ladder;
     for (const RunData& run : data_.runs) ladder.runs.push_back(run.name);
     ladder.left_out = data_.left_out;
-    const Model bare = isotropic(base_);
-    for (const RungPlan& plan : plans()) ladder.rungs.push_back(rung(plan, bare));
+    const Model bare = with_anisotropy_of(base_, {});
+    for (const AnisotropyDescription& plan : anisotropy_descriptions())
+      ladder.rungs.push_back(rung(plan, bare));
     return ladder;
   }
 
@@ -101,16 +82,17 @@ class Climb {
              int most_rounds) {
     IceFitOptions options = options_.fit;
     options.most_rounds = std::min(options.most_rounds, most_rounds);
-    const double done = static_cast<double>(fits_++) /
-                        static_cast<double>(plans().size() * static_cast<std::size_t>(options_.folds + 1));
-    const double share =
-        1 / static_cast<double>(plans().size() * static_cast<std::size_t>(options_.folds + 1));
+    const double done =
+        static_cast<double>(fits_++) /
+        static_cast<double>(anisotropy_descriptions().size() * static_cast<std::size_t>(options_.folds + 1));
+    const double share = 1 / static_cast<double>(anisotropy_descriptions().size() *
+                                                 static_cast<std::size_t>(options_.folds + 1));
     return fit_ice(bare, data, parameters, options, [&](double fraction, const std::string& stage) {
       if (progress_) progress_(done + share * fraction, name_ + ": " + stage);
     });
   }
 
-  LadderRung rung(const RungPlan& plan, const Model& bare) {
+  LadderRung rung(const AnisotropyDescription& plan, const Model& bare) {
     name_ = plan.name;
     LadderRung rung;
     rung.name = plan.name;

@@ -1,0 +1,125 @@
+// floe figures on the command line, with little light.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+
+#include "tests/app/floe_runner.h"
+#include "tests/app/small_detector.h"
+#include "tests/app/wrong_cases.h"
+#include "tests/unit/data/temporary_folder.h"
+
+namespace floe::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class Figures : public ::testing::Test {
+ protected:
+  Outcome floe_well(const std::string& arguments) const {
+    const Outcome outcome = run_floe(folder_.path(), arguments);
+    EXPECT_EQ(outcome.code, 0) << "floe " << arguments << "\n" << outcome.err;
+    return outcome;
+  }
+  std::string text_of(const std::string& file) const { return bytes_of(folder_.path() / file); }
+  Json json_of(const std::string& file) const { return Json::parse(text_of(file)); }
+  TemporaryFolder folder_;
+};
+
+struct Number {
+  double value, error;
+};
+Number number_of(const Json& figure, const std::string& of, const std::string& name) {
+  for (const Json& number : figure["numbers"])
+    if (number["of"] == of && number["name"] == name) return {number["value"], number["error"]};
+  ADD_FAILURE() << "no " << name << " of " << of;
+  return {0, 1};
+}
+
+TEST_F(Figures, OfAzimuthSayHowMuchLightGoesAlongTheFlow) {
+  // The built-in ice is dark at these depths: with less absorption a test needs fewer photons.
+  const Outcome outcome = floe_well(
+      "figures --only azimuth --photons 4e8 --seed 5 --with absorption-scale.factor=0.4 --json same.json -o "
+      "made");
+  EXPECT_EQ(files_in(folder_.path()), (std::set<std::string>{"made", "made/azimuth.csv", "made/azimuth.svg",
+                                                             "made/figures.json", "same.json"}));
+  EXPECT_EQ(text_of("same.json"), text_of("made/figures.json"));
+  const Json all = json_of("made/figures.json");
+  ASSERT_EQ(all["figures"].size(), 1U);
+  const Json figure = all["figures"][0];
+  EXPECT_EQ(figure["name"], "azimuth");
+  EXPECT_EQ(figure["files"], (Json{"azimuth.svg", "azimuth.csv"}));
+  const Number same = number_of(figure, "isotropic", "c along the flow"),
+               full = number_of(figure, "full ice", "c along the flow");
+  EXPECT_NEAR(same.value, 0, 4 * same.error);
+  EXPECT_GT(full.value, 4 * full.error);
+  const Number phi = number_of(figure, "full ice", "phi");
+  EXPECT_NEAR(phi.value, 130, 4 * phi.error);
+  EXPECT_NE(outcome.out.find("max/min"), std::string::npos) << outcome.out;
+
+  const std::string picture = text_of("made/azimuth.svg");
+  EXPECT_TRUE(picture.starts_with("<svg "));
+  for (const char* said : {"isotropic", "absorption anisotropy", "birefringence", "full ice", "[deg]"})
+    EXPECT_NE(picture.find(said), std::string::npos) << said;
+  const std::string table = text_of("made/azimuth.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 4 * 4 * 6);  // models, flashers, neighbours
+}
+
+TEST_F(Figures, OfLightCurvesHaveACurveForEachDescription) {
+  floe_well("figures --only light-curves --photons 2e8 --quiet -o made");
+  const Json figure = json_of("made/figures.json")["figures"][0];
+  for (const char* model : {"isotropic", "birefringence", "birefringence and absorption anisotropy"})
+    for (const char* side : {", along the flow", ", across the flow"})
+      EXPECT_GT(number_of(figure, std::string(model) + side, "charge for 1e9 photons").value, 0) << model;
+  // The built-in ice has no anisotropy of scattering: said, not drawn.
+  const std::string picture = text_of("made/light-curves.svg");
+  EXPECT_EQ(picture.find("scattering anisotropy"), std::string::npos);
+  EXPECT_NE(figure["remarks"].dump().find("scattering anisotropy: the same as isotropic"), std::string::npos);
+
+  floe_well(
+      "figures --only light-curves --photons 2e8 --quiet --with scattering-anisotropy.k1=-0.1 -o stretched");
+  EXPECT_NE(text_of("stretched/light-curves.svg").find("scattering anisotropy"), std::string::npos);
+}
+
+TEST_F(Figures, DoNotDependOnThreads) {
+  floe_well("figures --only light-curves --photons 1e8 --quiet --threads 1 -o one");
+  floe_well("figures --only light-curves --photons 1e8 --quiet --threads 3 -o three");
+  for (const char* file : {"light-curves.csv", "light-curves.svg"})
+    EXPECT_EQ(text_of(std::string("one/") + file), text_of(std::string("three/") + file)) << file;
+}
+
+// With hardly any light, a string sees none.
+TEST_F(Figures, WithoutLightAreAnError) {
+  expect_error(run_floe(folder_.path(), "figures --only azimuth --photons 1e6 -o made"), 4,
+               "more photons are needed");
+  EXPECT_TRUE(files_in(folder_.path()).empty());
+}
+
+class WrongFigures : public testing::TestWithParam<WrongCase> {};
+
+TEST_P(WrongFigures, AreSaidAndLeaveNothing) {
+  const TemporaryFolder folder;
+  write_small_detector(folder.path() / "small", 125);
+  write_bytes(folder.path() / "taken", "");
+  expect_said_and_nothing_left(folder.path(), GetParam());
+}
+
+const WrongCase cases[] = {
+    {"NoFolder", "", 2, "--output"},
+    {"UnknownFigure", "-o made --only azimut", 2, "--only: found figure \"azimut\"; expected one of azimuth"},
+    {"NoFigure", "-o made --only azimuth,", 2, "--only: found figure \"\""},
+    {"TooFewPhotons", "-o made --photons 3", 2, "--photons"},
+    {"FolderIsAFile", "-o taken", 5, "a file of this name exists"},
+    {"FolderAboveMissing", "-o no/such", 5, "no"},
+    // Its modules hang from 2168 m on.
+    {"NoShallowModules", "-o made --only azimuth --detector small", 4, "no string with a module from 1650"},
+};
+
+INSTANTIATE_TEST_SUITE_P(CommandLine, WrongFigures, testing::ValuesIn(cases_of("figures ", cases)),
+                         name_of_case);
+
+}  // namespace
+}  // namespace floe::test
