@@ -13,6 +13,7 @@ constexpr double quick_photons = 1e8;  // N of the flasher
 // Clear ice, where much light gets far; the layer reaches beyond the flasher.
 constexpr double flasher_top = 2200, flasher_bottom = 2300, beyond = 50;  // [m]
 constexpr double oversize = 25;
+// Scattering stays above the birefringent share of it at all points, in the built-in ice, too.
 constexpr int values = 5;  // of each axis
 constexpr std::uint64_t first_stream = std::uint64_t{1} << 54;
 
@@ -48,10 +49,10 @@ PaperFigure llh_space_figure(const FigureSettings& settings, const Progress& pro
   rule.bottom = flasher_bottom;
   const std::vector<Emitter> emitters = choose_emitters(*model.detector, rule);
   const ScanAxis strength{
-      layer_factor(LayerFamily::birefringence, rule.top - beyond, rule.bottom + beyond, model), 0.4, 1.6,
+      layer_factor(LayerFamily::birefringence, rule.top - beyond, rule.bottom + beyond, model), 0.5, 1.5,
       values},
-      scattering{layer_factor(LayerFamily::scattering, rule.top - beyond, rule.bottom + beyond, model), 0.8,
-                 1.2, values};
+      scattering{layer_factor(LayerFamily::scattering, rule.top - beyond, rule.bottom + beyond, model), 0.85,
+                 1.15, values};
   const FlasherData data = pseudo_data(model, emitters, settings.photons.value_or(quick_photons),
                                        settings.seed, first_stream, settings.threads);
   const IceScan scan = scan_ice(model, data, strength, scattering, scan_settings(settings), progress);
