@@ -180,8 +180,7 @@ void add_fit_ice(CLI::App& floe, const std::string& command_line) {
       "  floe fit-ice runs.h5 --ice my-ice -o fitted\n"
       "  floe fit-ice runs.h5 --ice my-ice --fit birefringence,absorption,scattering --layers 10 -o fitted\n"
       "  floe fit-ice runs.hits --ice south-pole --fit absorption-anisotropy.k1,flow-azimuth -o fitted\n"
-      "  floe fit-ice runs.h5 --fit absorption-layer.depth,absorption-layer.factor "
-      "--start absorption-layer.depth=2000,absorption-layer.factor=1.2 -o fitted");
+      "  floe fit-ice runs.h5 --fit flow-azimuth --start flow-azimuth.azimuth=100 -o fitted");
   app.callback([command] { run_fit_ice(*command); });
 }
 

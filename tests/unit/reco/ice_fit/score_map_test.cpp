@@ -37,7 +37,7 @@ PathScores some_path() {
   path.lowest = 80, path.highest = 140;
   for (int i = path.lowest; i <= path.highest; ++i)
     path.layers[static_cast<std::size_t>(i)] = {-20 - 0.1 * i, 7 - 0.3 * i, 0.4 + 0.01 * i, -3 + 0.02 * i,
-                                                   20 + 0.1 * i};
+                                                20 + 0.1 * i};
   path.absorption_anisotropy = {0.3, -0.2, 0.5};
   return path;
 }
