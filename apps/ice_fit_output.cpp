@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <system_error>
 
+#include "apps/improved_ice.h"
 #include "apps/model_json.h"
 #include "apps/text_table.h"
 #include "data/base/atomic_file.h"
-#include "data/base/error.h"
 #include "reco/ice_fit/stratigraphy.h"
 
 namespace floe {
@@ -88,14 +87,6 @@ std::string changes(const IceFitReport& report) {
   return text;
 }
 
-void copy_base(const ModelRequest& request, const fs::path& folder) {
-  if (!fs::is_directory(request.ice)) return;  // built in
-  std::error_code problem;
-  fs::copy(request.ice, folder, fs::copy_options::recursive, problem);
-  if (problem)
-    throw OutputError(fmt::format("{}: cannot be written: {}", folder.string(), problem.message()));
-}
-
 }  // namespace
 
 std::string ice_fit_table(const IceFitReport& report) {
@@ -156,12 +147,8 @@ void write_ice_fit(const IceFitReport& report, const fs::path& folder) {
   write_whole_file(folder / "result.json", json_text(ice_fit_json(report)));
   write_whole_file(folder / "stratigraphy.csv", stratigraphy_csv(rows));
   write_whole_file(folder / "stratigraphy.svg", stratigraphy_picture(rows, title));
-  const fs::path ice = folder / "improved-ice";
-  copy_base(report.base_request, ice);
-  std::error_code ignored;
-  fs::create_directory(ice, ignored);
-  write_ice_tables(report.fitted.ice->tables(), ice);
-  write_whole_file(ice / "CHANGES.txt", changes(report));
+  write_improved_ice(report.base_request, report.base, report.fitted, changes(report),
+                     folder / "improved-ice");
 }
 
 }  // namespace floe

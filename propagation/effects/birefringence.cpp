@@ -15,7 +15,7 @@ class Birefringence final : public Effect {
   std::vector<EffectParameter> parameters(const ModelParts& model) const override {
     const bool has_it = model.ice.configuration.birefringence.has_value();
     return {{"strength", "", "multiplies every layer's strength A; 0: no birefringence", has_it ? 1.0 : 0.0,
-             0, 10}};
+             0, 10, false, 2}};
   }
 
   // At 0 the numbers go, too: it is the same ice as --without birefringence.

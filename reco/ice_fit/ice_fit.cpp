@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "data/base/error.h"
+#include "reco/ice_fit/ice_point.h"
 #include "reco/ice_fit/ice_solution.h"
 #include "reco/ice_fit/run_light.h"
 #include "reco/ice_fit/run_likelihood.h"
@@ -21,8 +22,6 @@ constexpr double longest_step = 0.7;  // of a round, in the parameter's scale
 // Steps so small, in their errors, are the last: root mean square and largest. New simulations in every round
 // keep them from getting much smaller.
 constexpr double settled = 0.8, settled_most = 2.5;
-// Differences, in the parameter's scale: for weights, which are exact, and between simulations.
-constexpr double weight_step = 1e-3, pair_step = 0.5;
 // Far from the streams of simulated data.
 constexpr std::uint64_t first_stream = std::uint64_t{1} << 40;
 constexpr std::uint64_t streams_a_run = 1 << 10, streams_a_round = 1 << 20;
@@ -106,52 +105,14 @@ class Fit {
     return floe::bins_of(scout, data_.runs[r], states_[r].brightness);
   }
 
-  ScoreMap scores_of(const Model& model, double wavelength, std::vector<int>& pairs) const {
-    ScoreMap map(model, wavelength, static_cast<int>(count()));
-    for (std::size_t p = 0; p < count(); ++p) {
-      const double step = (fit_.numbers[p] > 0 ? -1 : 1) * weight_step * fit_.parameters[p].scale;
-      if (!map.add(static_cast<int>(p), moved_model(p, step), step)) pairs.push_back(static_cast<int>(p));
-    }
-    return map;
-  }
-
-  Model moved_model(std::size_t p, double step) const {
-    std::vector<double> moved = fit_.numbers;
-    moved[p] += step;
-    return with_parameters(base_, fit_.parameters, moved);
-  }
-
-  // Slopes that weights cannot give: from two simulations with the random numbers of the first, as far apart
-  // as the parameter's limits allow.
-  void add_pair(const RunRequest& request, double time_zero, const RunBins& bins, int p, RunLight& light) {
-    const auto index = static_cast<std::size_t>(p);
-    const IceParameter& parameter = fit_.parameters[index];
-    const double number = fit_.numbers[index], reach = pair_step * parameter.scale;
-    // It acts all over the ice: light dwells in it wherever it goes.
-    for (LightFold& fold : light.folds) fold.dwell.col(p) = fold.counts;
-    const double down = std::max(-reach, parameter.low - number),
-                 up = std::min(reach, parameter.high - number);
-    for (const double step : {down, up}) {
-      const SimulatedRun simulated = simulate(moved_model(index, step), request, time_zero);
-      fit_.photons += simulated.propagated;
-      const RunLight counted = count_light(simulated, bins, request.photons, 0);
-      const double factor = (step == up ? 1 : -1) / (up - down);
-      for (int fold = 0; fold < 2; ++fold) {
-        light.folds[fold].slopes.col(p) += factor * counted.folds[fold].counts;
-        light.folds[fold].slope_squares.col(p) += factor * factor * counted.folds[fold].counts;
-      }
-    }
-  }
-
   void one_round() {
-    const Model model = this->model();
+    const IcePoint point(base_, fit_.parameters, fit_.numbers,
+                         data_.runs.front().run.wavelength);  // all have the same
     const auto runs = states_.size();
-    std::vector<int> pairs;
-    const ScoreMap map = scores_of(model, data_.runs.front().run.wavelength, pairs);  // all have the same
     ScoreSystem system(static_cast<int>(count() + 2 * runs));
     for (std::size_t r = 0; r < runs; ++r) {
       report(r, "walking in the light of");
-      add_run_to(model, r, map, pairs, system);
+      add_run_to(point, r, system);
     }
     calibrate_information(groups(), system);
     const IceSolution solution = solve_ice(system, fit_.parameters, fit_.numbers,
@@ -182,19 +143,17 @@ class Fit {
     return names;
   }
 
-  void add_run_to(const Model& model, std::size_t r, const ScoreMap& map, const std::vector<int>& pairs,
-                  ScoreSystem& system) {
+  void add_run_to(const IcePoint& point, std::size_t r, ScoreSystem& system) {
     const RunData& run = data_.runs[r];
     RunState& state = states_[r];
     const double photons = photons_of(r);
     // The first round may be far from the data; from the second one on, bins stay and slopes gather.
-    if (round_ <= 2) state.bins = bins_of(model, r);
+    if (round_ <= 2) state.bins = bins_of(point.model(), r);
     const RunBins& bins = state.bins;
     const RunRequest request = this->request(r, 2, photons);
-    const SimulatedRun simulated = simulate(model, request, state.time_zero);
-    fit_.photons += simulated.propagated;
-    RunLight light = light_with_slopes(model, request, simulated, bins, map, state.time_zero);
-    for (const int p : pairs) add_pair(request, state.time_zero, bins, p, light);
+    const SimulatedRun simulated = simulate(point.model(), request, state.time_zero);
+    auto [light, propagated] = point.light(request, simulated, bins, state.time_zero);
+    fit_.photons += simulated.propagated + propagated;
 
     const double hits = used_hits(simulated, run);
     state.hits_per_photon = std::max(1.0, hits) / photons;

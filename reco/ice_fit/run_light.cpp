@@ -61,6 +61,7 @@ SimulatedRun simulate_run(const Model& model, const RunRequest& request) {
 RunLight count_light(const SimulatedRun& run, const RunBins& bins, double photons, int parameters) {
   RunLight light;
   light.photons = photons / 2;
+  light.symmetric.assign(static_cast<std::size_t>(parameters), 1);
   for (LightFold& fold : light.folds) fold = empty_fold(bins.size(), parameters);
   for (const SimulatedHit& hit : run.hits) {
     const int bin = bins.bin(hit.module, hit.time);

@@ -29,6 +29,8 @@ struct RunLight {
   LightFold folds[2];
   double photons = 0;      // N that each fold stands for (FlasherSettings::photons)
   Eigen::MatrixXd places;  // of the bins, for smooth slopes
+  // By parameter: slopes of weights, which are of the ice alone; not those of pairs.
+  std::vector<char> symmetric;
 };
 
 struct RunRequest {

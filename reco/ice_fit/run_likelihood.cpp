@@ -19,13 +19,8 @@ Eigen::VectorXd simulated_counts(const SimulatedRun& simulated, const RunBins& b
   return counts;
 }
 
-struct Counts {
-  Eigen::VectorXd data, simulated;
-  double photons;  // of the simulation; both in units of independent hits
-};
-
 // At one brightness: value, slope and curvature in its logarithm.
-BinLikelihood sum_at(const Counts& counts, double brightness, double model_error) {
+BinLikelihood sum_at(const ComparedCounts& counts, double brightness, double model_error) {
   BinLikelihood sum;
   for (Eigen::Index b = 0; b < counts.data.size(); ++b) {
     const BinLikelihood bin =
@@ -38,7 +33,7 @@ BinLikelihood sum_at(const Counts& counts, double brightness, double model_error
 }
 
 // Newton's way; the sum is convex in the logarithm of brightness.
-double best_brightness(const Counts& counts, double brightness, double model_error) {
+double best_brightness(const ComparedCounts& counts, double brightness, double model_error) {
   for (int i = 0; i < most_steps; ++i) {
     const BinLikelihood at = sum_at(counts, brightness, model_error);
     if (!(at.curvature > 0)) break;
@@ -72,6 +67,11 @@ void delay(SimulatedRun& simulated, double time) {
   for (SimulatedHit& hit : simulated.hits) hit.time += static_cast<float>(time);
 }
 
+RunMeasurement measure_counts(const ComparedCounts& counts, double brightness, double model_error) {
+  const double best = best_brightness(counts, brightness, model_error);
+  return {sum_at(counts, best, model_error).value, {best, 0}, static_cast<int>(counts.data.size())};
+}
+
 RunMeasurement measure_run(const SimulatedRun& simulated, double photons, const RunData& run,
                            const RunBins& bins, const RunNuisances& start, double model_error) {
   const double factor = dispersion(simulated);
@@ -79,10 +79,11 @@ RunMeasurement measure_run(const SimulatedRun& simulated, double photons, const 
                                             : run.charge * photons / std::max(1.0, used_hits(simulated, run));
   const Eigen::VectorXd data = run.counts(bins);
   const auto at = [&](double time_zero) {
-    const Counts counts{data, simulated_counts(simulated, bins, time_zero) / factor, photons / factor};
-    const double brightness = best_brightness(counts, first, model_error);
-    return RunMeasurement{
-        sum_at(counts, brightness, model_error).value, {brightness, time_zero}, bins.size()};
+    RunMeasurement measured =
+        measure_counts({data, simulated_counts(simulated, bins, time_zero) / factor, photons / factor}, first,
+                       model_error);
+    measured.nuisances.time_zero = time_zero;
+    return measured;
   };
   // Downhill in steps of the time; finer than the simulation's own noise makes no sense.
   RunMeasurement best = at(start.time_zero);

@@ -26,6 +26,14 @@ double dispersion(const SimulatedRun& simulated);
 // Moves all hits in time [ns].
 void delay(SimulatedRun& simulated, double time);
 
+// Counts of one run in bins.
+struct ComparedCounts {
+  Eigen::VectorXd data, simulated;
+  double photons = 0;  // N of the simulation; both in units of independent hits
+};
+// At the best brightness; `brightness`: where to look first.
+RunMeasurement measure_counts(const ComparedCounts& counts, double brightness, double model_error);
+
 // The likelihood of a run's counts at the best nuisances. `photons`: N of the simulation; `start`: where to
 // look for them first; brightness 0: from the number of hits.
 RunMeasurement measure_run(const SimulatedRun& simulated, double photons, const RunData& run,

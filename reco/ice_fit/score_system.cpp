@@ -28,7 +28,7 @@ void add_run(const RunLight& light, const RunLight& seen, const RunCounts& count
              ScoreSystem& system) {
   const LightFold* folds = light.folds;
   const Eigen::Index parameters = folds[0].slopes.cols();
-  const SmoothSlopes smooth = smooth_slopes(seen.folds, seen.places);
+  const SmoothSlopes smooth = smooth_slopes(seen.folds, seen.places, seen.symmetric);
   const Eigen::MatrixXd slopes[2] = {own_slopes(folds[0]), own_slopes(folds[1])};
   const Eigen::MatrixXd weight[2] = {with_nuisances(smooth.fold[0], seen.folds[0]),
                                      with_nuisances(smooth.fold[1], seen.folds[1])};

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double usual_distance = 100;  // [m]
 constexpr Eigen::Index directions = 3;  // the first terms: any way, along the flow, across it
+constexpr Eigen::Index symmetric_places = 12, number_of_places = 27;
 constexpr double ridge = 1e-6;          // keeps terms apart that few bins cannot tell apart
 
 // Of one fold: mean slopes per bin with their noise, as if Gaussian.
@@ -29,9 +30,12 @@ FoldSlopes fold_slopes(const LightFold& fold) {
   return slopes;
 }
 
-// The places, and again in proportion to the bins' dwell.
-Eigen::MatrixXd terms_of(const LightFold& fold, const Eigen::ArrayXd& counts, const Eigen::MatrixXd& places,
-                         Eigen::Index parameter) {
+// The ice's own symmetric places, and again in proportion to the bins' dwell. What acts on light as a whole
+// may have any symmetry: all places.
+Eigen::MatrixXd terms_of(const LightFold& fold, const Eigen::ArrayXd& counts,
+                         const Eigen::MatrixXd& all_places, Eigen::Index parameter, bool symmetric) {
+  if (!symmetric) return all_places;
+  const Eigen::MatrixXd places = all_places.leftCols(std::min(symmetric_places, all_places.cols()));
   const Eigen::ArrayXd dwell = fold.dwell.col(parameter).array() / counts;
   const double usual = (dwell * counts).sum() / counts.sum();
   Eigen::MatrixXd terms(places.rows(), places.cols() + directions);
@@ -59,30 +63,35 @@ double product(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Eigen::
 Eigen::MatrixXd bin_places(const RunBins& bins, const Detector& detector, const Vec3& flasher,
                            double flow_azimuth) {
   const Vec3 flow(std::cos(flow_azimuth), std::sin(flow_azimuth), 0);
-  Eigen::MatrixXd places(bins.size(), 12);
+  Eigen::MatrixXd places(bins.size(), number_of_places);
   for (const RunBins::Receiver& receiver : bins.receivers()) {
     const Vec3 way = detector.modules()[receiver.module].position - flasher;
     const double square = std::max(1.0, way.squaredNorm()), far = std::sqrt(square) / usual_distance - 1;
-    const double along = std::pow(way.dot(flow), 2) / square;
-    const double across = std::pow(Vec3::UnitZ().cross(flow).dot(way), 2) / square;
+    const Vec3 unit = way / std::sqrt(square);
+    const double with_flow = unit.dot(flow), beside_flow = Vec3::UnitZ().cross(flow).dot(unit);
+    const double along = with_flow * with_flow, across = beside_flow * beside_flow;
+    Eigen::Matrix<double, 1, 5> odd;  // what has another symmetry than ice: its axis, depth, places of modules
+    odd << with_flow * beside_flow, unit.z(), unit.z() * unit.z(), with_flow, beside_flow;
     for (int i = 0; i < receiver.bins(); ++i) {
       const double late = (2 * i + 1.0) / receiver.bins() - 1;
       places.row(receiver.first + i) << 1, along, across, far, far * along, far * across, late, late * along,
-          late * across, far * far, late * late, far * late;
+          late * across, far * far, late * late, far * late, odd, far * odd, late * odd;
     }
   }
   return places;
 }
 
-SmoothSlopes smooth_slopes(const LightFold (&folds)[2], const Eigen::MatrixXd& places) {
+SmoothSlopes smooth_slopes(const LightFold (&folds)[2], const Eigen::MatrixXd& places,
+                           const std::vector<char>& symmetric) {
   const FoldSlopes slopes[2] = {fold_slopes(folds[0]), fold_slopes(folds[1])};
   const Eigen::ArrayXd weights = slopes[0].counts + slopes[1].counts;
   SmoothSlopes result{{slopes[0].mean, slopes[1].mean}};
   for (Eigen::Index p = 0; p < slopes[0].mean.cols(); ++p) {
     Eigen::VectorXd smooth[2], rest[2];
     for (int fold = 0; fold < 2; ++fold)
-      smooth[fold] = fitted(terms_of(folds[fold], slopes[fold].counts, places, p), slopes[fold].counts,
-                            slopes[fold].mean.col(p));
+      smooth[fold] = fitted(
+          terms_of(folds[fold], slopes[fold].counts, places, p, symmetric[static_cast<std::size_t>(p)] != 0),
+          slopes[fold].counts, slopes[fold].mean.col(p));
     const double agreed = product(smooth[0], smooth[1], weights);
     for (int fold = 0; fold < 2; ++fold) {
       const double power = product(smooth[fold], smooth[fold], weights);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "geometry/detector.h"
 #include "reco/ice_fit/run_bins.h"
@@ -11,7 +12,8 @@ namespace floe {
 struct LightFold;
 
 // Where a run's bins lie, bins x terms: products of the distance from the flasher, of how much of the way is
-// along and across the flow, and of how late the bin is in its receiver's light. The first column is 1.
+// along and across the flow, and of how late the bin is in its receiver's light; first those that are alike
+// forwards and backwards, left and right, up and down. The first column is 1.
 Eigen::MatrixXd bin_places(const RunBins& bins, const Detector& detector, const Vec3& flasher,
                            double flow_azimuth);
 
@@ -22,6 +24,8 @@ Eigen::MatrixXd bin_places(const RunBins& bins, const Detector& detector, const 
 struct SmoothSlopes {
   Eigen::MatrixXd fold[2];
 };
-SmoothSlopes smooth_slopes(const LightFold (&folds)[2], const Eigen::MatrixXd& places);
+// `symmetric`: by parameter, whether its effect has that symmetry.
+SmoothSlopes smooth_slopes(const LightFold (&folds)[2], const Eigen::MatrixXd& places,
+                           const std::vector<char>& symmetric);
 
 }  // namespace floe

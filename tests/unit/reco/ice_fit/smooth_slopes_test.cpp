@@ -20,6 +20,9 @@ Eigen::MatrixXd some_places() {
   }
   return places;
 }
+std::vector<char> all_symmetric(const LightFold (&folds)[2]) {
+  return std::vector<char>(static_cast<std::size_t>(folds[0].slopes.cols()), 1);
+}
 Eigen::VectorXd dwell_of(Eigen::Index b) {
   return Eigen::VectorXd::Constant(1, 20 + 15 * std::sin(0.1 * static_cast<double>(b)));
 }
@@ -59,7 +62,7 @@ TEST(SmoothSlopes, AreTheSlopesWhereNothingIsNoisy) {
   for (Eigen::Index b = 0; b < bins; ++b) truth(b) = normal(random);
   LightFold folds[2];
   draw(truth, 30, 0, random, folds);
-  const SmoothSlopes slopes = smooth_slopes(folds, some_places());
+  const SmoothSlopes slopes = smooth_slopes(folds, some_places(), all_symmetric(folds));
   for (const auto& fold : slopes.fold) EXPECT_TRUE(fold.col(0).isApprox(truth, 1e-6));
 }
 
@@ -74,7 +77,7 @@ TEST(SmoothSlopes, AverageNoiseOut) {
   for (int trial = 0; trial < trials; ++trial) {
     LightFold folds[2];
     draw(truth, 30, sigma * std::sqrt(30.0), random, folds);
-    const SmoothSlopes slopes = smooth_slopes(folds, some_places());
+    const SmoothSlopes slopes = smooth_slopes(folds, some_places(), all_symmetric(folds));
     for (const auto& fold : slopes.fold) left += power(fold.col(0) - truth) / (2 * trials);
   }
   EXPECT_LT(left, 0.03 * sigma * sigma);
@@ -92,7 +95,7 @@ TEST(SmoothSlopes, SayOnAverageWhatTheSlopesAre) {
     for (int trial = 0; trial < 50; ++trial) {
       LightFold folds[2];
       draw(truth, 30, noise * usual * std::sqrt(30.0), random, folds);
-      const SmoothSlopes slopes = smooth_slopes(folds, some_places());
+      const SmoothSlopes slopes = smooth_slopes(folds, some_places(), all_symmetric(folds));
       for (const auto& fold : slopes.fold) {
         found += fold.col(0).dot(truth);
         claimed += fold.col(0).squaredNorm();
@@ -109,7 +112,7 @@ TEST(SmoothSlopes, AreNothingWhereThereIsNothing) {
   for (int trial = 0; trial < trials; ++trial) {
     LightFold folds[2];
     draw(Eigen::VectorXd::Zero(bins), 30, std::sqrt(30.0), random, folds);
-    const SmoothSlopes slopes = smooth_slopes(folds, some_places());
+    const SmoothSlopes slopes = smooth_slopes(folds, some_places(), all_symmetric(folds));
     for (const auto& fold : slopes.fold) left += power(fold.col(0)) / (2 * trials);
   }
   EXPECT_LT(left, 0.03);  // of 1

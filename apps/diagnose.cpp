@@ -1,0 +1,197 @@
+// floe diagnose: what is a model of the ice missing?
+#include <fmt/format.h>
+
+#include <memory>
+#include <system_error>
+
+#include "apps/commands.h"
+#include "apps/common_options.h"
+#include "apps/flasher_input.h"
+#include "apps/improved_ice.h"
+#include "apps/model_json.h"
+#include "apps/option_values.h"
+#include "apps/planned_output.h"
+#include "apps/progress_bar.h"
+#include "apps/text_table.h"
+#include "data/base/atomic_file.h"
+#include "data/base/atomic_folder.h"
+#include "reco/diagnose/diagnosis.h"
+#include "reco/diagnose/report.h"
+
+namespace floe {
+
+namespace {
+
+struct DiagnoseCommand {
+  std::string data, folder, command;
+  ModelRequest model;
+  DiagnosisOptions options;
+  SimulationSettings run;
+  OutputOptions output;
+};
+
+Json effect_json(const NamedEffect& effect) {
+  Json parameters = Json::object();
+  for (std::size_t i = 0; i < effect.values.size(); ++i) {
+    const std::string& name = effect.parameters[i].name;
+    parameters[name.substr(name.find('.') + 1)] = {
+        {"value", effect.values[i]}, {"error", effect.errors[i]}, {"unit", effect.parameters[i].unit}};
+  }
+  for (const auto& [name, value] : effect.suspect.place)
+    if (!parameters.contains(name)) parameters[name] = {{"value", value}, {"error", 0.0}, {"unit", ""}};
+  return {{"name", effect.suspect.effect}, {"parameters", parameters}, {"significance", effect.significance}};
+}
+
+Json region_json(const Region& region) {
+  return {{"axis", region.axis},         {"from", region.from},
+          {"to", region.to},             {"sign", region.sign},
+          {"relative", region.relative}, {"significance", region.significance},
+          {"sentence", region.sentence}};
+}
+
+Json step_json(const DiagnosisStep& step) {
+  Json json = {{"neg_llh", step.neg_llh},       {"expected_neg_llh", step.expected},
+               {"scatter", step.scatter},       {"p_of_fit", step.p_of_fit},
+               {"p_of_scores", step.scores.p_value}, {"scores", Json::array()},
+               {"fits", Json::array()},         {"where", Json::array()}};
+  for (const EffectScore& effect : step.scores.effects)
+    json["scores"].push_back({{"effect", effect.best.suspect.effect},
+                              {"place", effect.best.suspect.place},
+                              {"gain", effect.best.gain},
+                              {"significance", sigmas_of(effect.ln_p)},
+                              {"changes_light_by", effect.best.size},
+                              {"likeness_to_first", effect.likeness}});
+  for (const Trial& trial : step.trials)
+    json["fits"].push_back({{"effect", trial.suspect.effect},
+                            {"place", trial.suspect.place},
+                            {"parameters", trial.parameters.size()},
+                            {"neg_llh", trial.neg_llh}});
+  for (const Region& region : step.where.regions) json["where"].push_back(region_json(region));
+  return json;
+}
+
+Json diagnosis_json(const Diagnosis& diagnosis, const DiagnoseCommand& command, const Model& base) {
+  Json json = {{"command", command.command},
+               {"version", FLOE_VERSION},
+               {"base", to_json(command.model)},
+               {"base_model", to_json(base)},
+               {"improved_model", to_json(diagnosis.improved)},
+               {"data", command.data},
+               {"seed", command.options.seed},
+               {"left_out", diagnosis.left_out},
+               {"remarks", diagnosis.remarks},
+               {"verdict", diagnosis.verdict},
+               {"groups", Json::object()},
+               {"where", Json::array()},
+               {"effects", Json::array()},
+               {"p_value", diagnosis.p_value},
+               {"alpha", command.options.alpha},
+               {"floor", command.options.floor},
+               {"gap_before", diagnosis.gap_before},
+               {"gap_after", diagnosis.gap_after},
+               {"closed", diagnosis.closed()},
+               {"gaps", Json::array()},
+               {"steps", Json::array()},
+               {"seconds", diagnosis.seconds}};
+  for (const NamedEffect& effect : diagnosis.effects) {
+    json["groups"][effect.suspect.effect] = effect.group;
+    json["effects"].push_back(effect_json(effect));
+  }
+  for (const Region& region : diagnosis.steps.front().where.regions)
+    json["where"].push_back(region_json(region));
+  for (const RunGap& run : diagnosis.gaps)
+    json["gaps"].push_back({{"run", run.run}, {"before", run.before}, {"after", run.after}});
+  for (const DiagnosisStep& step : diagnosis.steps) json["steps"].push_back(step_json(step));
+  return json;
+}
+
+std::string summary(const Diagnosis& diagnosis, const DiagnoseCommand& command) {
+  std::string text;
+  for (const std::string& sentence : diagnosis.left_out) text += "left out: " + sentence + "\n";
+  text += verdict_sentence(diagnosis, command.options.alpha) + "\n";
+  if (!diagnosis.verdict.empty()) text += diagnosis.steps.front().where.regions.front().sentence + "\n";
+  TextTable table({"effect", "parameter", "fitted", "error", "unit"});
+  for (const NamedEffect& effect : diagnosis.effects)
+    for (std::size_t i = 0; i < effect.values.size(); ++i)
+      table.add({i == 0 ? text_of(effect.suspect) : "", effect.parameters[i].name,
+                 fmt::format("{:.3f}", effect.values[i]), fmt::format("{:.3f}", effect.errors[i]),
+                 effect.parameters[i].unit});
+  if (!diagnosis.effects.empty()) text += table.str();
+  for (const std::string& remark : diagnosis.remarks) text += remark + "\n";
+  return text + fmt::format("Gap in held-out runs: {:.1f} before, {:.1f} after ({:.0f} s).\n",
+                            diagnosis.gap_before, diagnosis.gap_after, diagnosis.seconds);
+}
+
+std::string changes_text(const Diagnosis& diagnosis, const DiagnoseCommand& command, const Model& base) {
+  return fmt::format("Ice model made by floe {} from {} ({}), diagnosed with {}.\n{}\n\n{}", FLOE_VERSION,
+                     command.model.ice, base.ice->hash(), command.data, command.command,
+                     summary(diagnosis, command));
+}
+
+void run_diagnose(const DiagnoseCommand& given) {
+  DiagnoseCommand command = given;
+  command.options.seed = command.run.seed;
+  command.options.threads = command.run.threads;
+  command.options.oversize = command.run.oversize;
+  AtomicFolder folder(command.folder);
+  PlannedOutput json(command.output.json);
+  const std::vector<Event> events = read_flasher_file(command.data);
+  const Model base = load_model(command.model);
+  const FlasherData data = flasher_data(*base.detector, events);
+  command.options.folds = std::min(command.options.folds, static_cast<int>(data.runs.size()));
+  Diagnosis diagnosis;
+  {
+    ProgressBar bar(command.output.quiet);
+    diagnosis = diagnose(base, data, command.options, bar.callback());
+  }
+  const std::string result = json_text(diagnosis_json(diagnosis, command, base));
+  const ReportFacts facts{command.data, command.model.ice, command.command, FLOE_VERSION, command.run.seed};
+  write_whole_file(folder.temporary() / "result.json", result);
+  write_whole_file(folder.temporary() / "report.html", report_html(diagnosis, command.options, facts));
+  write_improved_ice(command.model, base, diagnosis.improved, changes_text(diagnosis, command, base),
+                     folder.temporary() / "improved-ice");
+  json.write(result);
+  json.commit();
+  folder.commit();
+  if (!command.output.quiet)
+    fmt::print("{}The report is {}/report.html, the improved ice model {}/improved-ice\n",
+               summary(diagnosis, command), command.folder, command.folder);
+}
+
+}  // namespace
+
+void add_diagnose(CLI::App& floe, const std::string& command_line) {
+  CLI::App& app = *floe.add_subcommand(
+      "diagnose", "Find where an ice model and flasher data disagree, and which effect is missing");
+  const auto command = std::make_shared<DiagnoseCommand>();
+  command->command = command_line;
+  command->options.light = {2, 2e4, 2e11};
+  command->run.oversize = command->options.oversize;
+  app.add_option("data", command->data, flasher_data_description)->type_name("DATA")->required();
+  app.add_option("-o,--output", command->folder, "New folder for the result")->type_name("DIR")->required();
+  add_model_options(app, command->model);
+  add_number(app, "--alpha", "P", {1e-6, 0.5}, "Probability of naming anything when nothing is missing",
+             command->options.alpha);
+  add_number(app, "--floor", "SHARE", {0, 0.5},
+             "Changes of light that are not told from differences between programs", command->options.floor);
+  add_integer(
+      app, "--folds", 1, 1000, "Groups of runs, each of which is held out once; 1: none is",
+      [command = command.get()](std::int64_t folds) { command->options.folds = static_cast<int>(folds); })
+      ->default_str("3");
+  add_number(app, "--light", "RATIO", {0.1, 1000}, "Simulated light, in units of the data's",
+             command->options.light.light);
+  add_number(app, "--least-hits", "N", {100, 1e8}, "Simulated hits of a run, at least",
+             command->options.light.least_hits);
+  add_number(app, "--model-error", "SIGMA", {0, 1},
+             "Relative error of the simulation, bin by bin, that likelihoods allow for",
+             command->options.model_error);
+  add_simulation_options(app, command->run);
+  add_output_options(app, command->output);
+  app.footer(
+      "Examples:\n"
+      "  floe diagnose runs.h5 --ice my-ice -o diagnosis\n"
+      "  floe diagnose runs.h5 --ice my-ice -o diagnosis --light 5 --floor 0.01 --json result.json");
+  app.callback([command] { run_diagnose(*command); });
+}
+
+}  // namespace floe

@@ -1,0 +1,350 @@
+#include "reco/diagnose/diagnosis.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include "data/base/error.h"
+#include "reco/ice_fit/model_judge.h"
+
+namespace floe {
+
+namespace {
+
+constexpr std::uint64_t look_stream = std::uint64_t{1} << 44, judge_stream = std::uint64_t{1} << 45;
+constexpr double alike = 0.9;         // correlation of effects that the data cannot tell apart
+constexpr double leading_share = 0.35;  // of the best gain: suspects that are fitted, too
+constexpr std::size_t most_trials = 3;
+constexpr int rounds = 3, rounds_of_folds = 2;
+constexpr double still_there = 3;  // standard deviations, of effects when another one has come in
+
+void check_options(const DiagnosisOptions& options, std::size_t runs) {
+  check(static_cast<const RunSettings&>(options));
+  const auto require = [](bool right, const std::string& what) {
+    if (!right) throw UsageError(what);
+  };
+  require(options.alpha > 0 && options.alpha < 1, "alpha must be between 0 and 1");
+  require(options.floor >= 0 && options.floor < 1, "the floor must be between 0 and 1");
+  require(options.draws >= 50, "calibrations need at least 50 draws");
+  require(options.folds >= 1 && options.folds <= static_cast<int>(runs),
+          fmt::format("found {} folds; expected 1 to {}, the number of runs", options.folds, runs));
+}
+
+double normal_tail(double z) {
+  return std::erfc(z / std::sqrt(2.0)) / 2;
+}
+
+// Which parameters of a joint fit belong to one effect.
+struct Span {
+  std::size_t first, count;
+};
+
+class Diagnoser {
+ public:
+  Diagnoser(const Model& base, FlasherData data, const DiagnosisOptions& options, const Progress& progress)
+      : base_(base), data_(std::move(data)), options_(options), progress_(progress) {}
+
+  Diagnosis run() {
+    stage(0, 0.03, "first look");
+    look_ = look_first(
+        base_, [this](std::size_t r, double photons) { return request(r, photons); }, data_);
+    result_.left_out = data_.left_out;
+    judge_.emplace(base_, data_, look_, options_, judge_stream);
+    bool unexplained = false;
+    for (int step = 0;; ++step) {
+      const bool gap = look_at(current(), step);
+      DiagnosisStep& now = result_.steps.back();
+      if (step == 0)
+        result_.p_value = std::min(1.0, 2 * std::min(now.p_of_fit, now.scores.p_value));
+      if (!gap) break;
+      if (step == options_.most_effects || !add_effect(now, step)) {
+        unexplained = true;
+        break;
+      }
+    }
+    finish(unexplained);
+    return std::move(result_);
+  }
+
+ private:
+  RunRequest request(std::size_t r, double photons) const {
+    return {data_.runs[r].run, photons, options_.oversize, options_.seed, look_stream + r, options_.threads};
+  }
+
+  Model current() const { return with_parameters(base_, parameters_, numbers_); }
+
+  void stage(double from, double to, const std::string& text) {
+    from_ = from, to_ = to, text_ = text;
+    if (progress_) progress_(from, text);
+  }
+  Progress part() const {
+    return [this](double fraction, const std::string& what) {
+      if (progress_) progress_(from_ + (to_ - from_) * fraction, text_ + ": " + what);
+    };
+  }
+  // Nobody knows how many steps there will be: each takes half of what is left.
+  static double begin(int step) { return 0.03 + 0.87 * (1 - std::pow(0.4, step)); }
+
+  // Whether there is a significant gap.
+  bool look_at(const Model& model, int step) {
+    const double from = begin(step), length = begin(step + 1) - from;
+    stage(from, from + length * 0.4, step == 0 ? "looking for a gap" : "looking again");
+    double shallowest = 1e9, deepest = -1e9;
+    for (const RunData& run : data_.runs) {
+      const double depth = flasher_depth(run, *model.detector);
+      shallowest = std::min(shallowest, depth), deepest = std::max(deepest, depth);
+    }
+    const SuspectPlan plan = plan_suspects(model, shallowest, deepest);
+    SurveyPlan survey_plan{.parameters = plan.parameters};
+    survey_plan.stream = static_cast<std::uint64_t>(step);
+    const Survey survey = survey_data(model, data_, look_, survey_plan, options_, part());
+    DiagnosisStep now;
+    goodness(survey, now);
+    now.scores = test_scores(survey, suspects_of(survey, plan), plan.parameters, options_.floor,
+                             options_.draws, options_.seed);
+    now.where = where_is_the_gap(model, survey, options_.draws, options_.seed);
+    result_.steps.push_back(std::move(now));
+    const DiagnosisStep& last = result_.steps.back();
+    return last.scores.p_value < options_.alpha / 2 || last.p_of_fit < options_.alpha / 2;
+  }
+
+  void goodness(const Survey& survey, DiagnosisStep& now) const {
+    const auto sum = [](const std::vector<double>& values) {
+      return std::accumulate(values.begin(), values.end(), 0.0);
+    };
+    now.neg_llh = sum(neg_llh_of(survey, measured_counts(survey)));
+    double squares = 0;
+    std::vector<double> drawn(static_cast<std::size_t>(options_.draws));
+#pragma omp parallel for
+    for (int d = 0; d < options_.draws; ++d)
+      drawn[static_cast<std::size_t>(d)] =
+          sum(neg_llh_of(survey, drawn_counts(survey, options_.seed, (std::uint64_t{1} << 33) +
+                                                                         static_cast<std::uint64_t>(d))));
+    for (const double value : drawn) now.expected += value / options_.draws;
+    for (const double value : drawn) squares += std::pow(value - now.expected, 2);
+    now.scatter = std::sqrt(squares / (options_.draws - 1));
+    now.p_of_fit = normal_tail((now.neg_llh - now.expected) / now.scatter);
+  }
+
+  IceFit fit(const FlasherData& data, const std::vector<IceParameter>& parameters, int most_rounds) {
+    IceFitOptions options;
+    static_cast<RunSettings&>(options) = options_;
+    options.most_rounds = most_rounds;
+    return fit_ice(base_, data, parameters, options, part());
+  }
+
+  double neg_llh_of_all(const Model& model) const {
+    double sum = 0;
+    for (std::size_t r = 0; r < data_.runs.size(); ++r) sum += judge_->measure(model, r).neg_llh;
+    return sum;
+  }
+
+  // All that is in the model already, and this suspect.
+  std::vector<IceParameter> with(const std::vector<IceParameter>& more) const {
+    std::vector<IceParameter> all = parameters_;
+    for (std::size_t i = 0; i < all.size(); ++i) all[i].start = numbers_[i];
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+
+  // Fits the leading suspects and adds the best, when it is better than nothing.
+  bool add_effect(DiagnosisStep& now, int step) {
+    if (now.scores.p_value >= options_.alpha / 2) return false;
+    const auto& effects = now.scores.effects;
+    std::vector<IceFit> fits;
+    const double from = begin(step), length = begin(step + 1) - from;
+    for (const EffectScore& score : effects) {
+      const bool leads = score.best.gain >= leading_share * effects.front().best.gain && score.best.gain > 5;
+      if (!leads || fits.size() == most_trials) continue;
+      const double done = 0.4 + 0.6 * static_cast<double>(fits.size()) / most_trials;
+      stage(from + length * done, from + length * (done + 0.2), "fitting " + text_of(score.best.suspect));
+      Trial trial;
+      trial.suspect = score.best.suspect;
+      trial.parameters = fit_parameters(score.best.suspect, score.best.amplitudes, base_for(score.best.suspect));
+      if (is_in_the_model(score.best.suspect)) continue;
+      try {
+        fits.push_back(fit(data_, with(trial.parameters), rounds));
+        trial.neg_llh =
+            neg_llh_of_all(with_parameters(base_, fits.back().parameters, fits.back().numbers));
+      } catch (const InputError&) {
+        // No physical ice on its way: it is not what is missing.
+        if (fits.size() > now.trials.size()) fits.pop_back();
+        continue;
+      }
+      now.trials.push_back(std::move(trial));
+    }
+    if (fits.empty()) return false;
+    // Half a unit of -ln L for each parameter, and one more for a place that was found.
+    const auto cost = [&](std::size_t i) {
+      return now.trials[i].neg_llh + 0.5 * static_cast<double>(now.trials[i].parameters.size());
+    };
+    std::vector<std::size_t> order(fits.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](auto a, auto b) { return cost(a) < cost(b); });
+    const std::size_t best = order.front();
+    const double gain = neg_llh_of_all(current()) - now.trials[best].neg_llh;
+    if (gain < 3 + 0.5 * static_cast<double>(now.trials[best].parameters.size())) return false;
+    accept(now, best, fits[best], gain);
+    std::vector<Trial> sorted;
+    for (const std::size_t i : order) sorted.push_back(std::move(now.trials[i]));
+    now.trials = std::move(sorted);
+    return true;
+  }
+
+  // A plain effect has one value in a model.
+  bool is_in_the_model(const Suspect& suspect) const {
+    return std::any_of(result_.effects.begin(), result_.effects.end(), [&](const NamedEffect& e) {
+      return e.suspect.effect == suspect.effect && (suspect.place.empty() || suspect.place.count("depth"));
+    });
+  }
+  const Model& base_for(const Suspect&) const { return base_; }
+
+  void accept(DiagnosisStep& now, std::size_t best, const IceFit& fit, double gain) {
+    const Trial& trial = now.trials[best];
+    NamedEffect named;
+    named.suspect = trial.suspect;
+    named.parameters = trial.parameters;
+    named.group = {trial.suspect.effect};
+    // Likeness is known to the leader of the scores.
+    if (now.scores.effects.front().best.suspect.effect == trial.suspect.effect)
+      for (const EffectScore& other : now.scores.effects)
+        if (other.best.suspect.effect != trial.suspect.effect && other.likeness > alike &&
+            rivals(now, other.best.suspect.effect, trial.neg_llh))
+          named.group.push_back(other.best.suspect.effect);
+    named.significance = std::sqrt(2 * gain);
+    spans_.push_back({parameters_.size(), trial.parameters.size()});
+    result_.effects.push_back(std::move(named));
+    take(fit);
+    now.added = result_.effects.size() - 1;
+    retest();
+  }
+
+  // Whether a fit of it, if there was one, came close.
+  static bool rivals(const DiagnosisStep& now, const std::string& effect, double best) {
+    constexpr double close = 5;  // of -ln L
+    for (const Trial& trial : now.trials)
+      if (trial.suspect.effect == effect) return trial.neg_llh < best + close;
+    return true;
+  }
+
+  void take(const IceFit& fit) {
+    parameters_ = fit.parameters;
+    numbers_ = fit.numbers;
+    for (std::size_t e = 0; e < spans_.size(); ++e) {
+      NamedEffect& effect = result_.effects[e];
+      effect.values.clear(), effect.errors.clear();
+      for (std::size_t i = spans_[e].first; i < spans_[e].first + spans_[e].count; ++i) {
+        effect.values.push_back(fit.value(i));
+        effect.errors.push_back(fit.error(i));
+      }
+    }
+  }
+
+  // A new effect may explain an earlier one away.
+  void retest() {
+    for (std::size_t e = 0; e + 1 < result_.effects.size(); ++e) {
+      const NamedEffect& effect = result_.effects[e];
+      if (effect.suspect.place.count("depth")) continue;
+      double most = 0;
+      for (std::size_t i = 0; i < effect.values.size(); ++i) {
+        const IceParameter before = null_of(effect, i);
+        most = std::max(most, std::abs(effect.values[i] - before.start) / effect.errors[i]);
+      }
+      if (most >= still_there) continue;
+      result_.remarks.push_back(fmt::format("{} was given up when {} came in: {:.1f} standard deviations",
+                                            text_of(effect.suspect), text_of(result_.effects.back().suspect),
+                                            most));
+      drop(e);
+      return;
+    }
+  }
+  IceParameter null_of(const NamedEffect& effect, std::size_t i) const {
+    return effect.suspect.place.empty() ? effect_parameter(effect.parameters[i].name, base_)
+                                        : fit_parameters(effect.suspect,
+                                                         Eigen::VectorXd::Zero(static_cast<Eigen::Index>(
+                                                             effect.parameters.size())),
+                                                         base_)[i];
+  }
+  void drop(std::size_t e) {
+    const Span span = spans_[e];
+    const auto cut = [&](auto& all) {
+      const auto first = all.begin() + static_cast<std::ptrdiff_t>(span.first);
+      all.erase(first, first + static_cast<std::ptrdiff_t>(span.count));
+    };
+    cut(parameters_), cut(numbers_);
+    spans_.erase(spans_.begin() + static_cast<std::ptrdiff_t>(e));
+    for (Span& later : spans_)
+      if (later.first > span.first) later.first -= span.count;
+    result_.effects.erase(result_.effects.begin() + static_cast<std::ptrdiff_t>(e));
+    for (DiagnosisStep& step : result_.steps)
+      if (step.added && *step.added >= e) {
+        if (*step.added == e) step.added.reset();
+        else --*step.added;
+      }
+  }
+
+  FlasherData without_fold(int fold) const {
+    FlasherData rest;
+    for (std::size_t r = 0; r < data_.runs.size(); ++r)
+      if (static_cast<int>(r) % options_.folds != fold) rest.runs.push_back(data_.runs[r]);
+    return rest;
+  }
+
+  // Each run judged by a model that was fitted to other runs.
+  void finish(bool unexplained) {
+    result_.improved = current();
+    const auto gap = [&](const Model& model, std::size_t r) {
+      const ModelJudge::Fit fit = judge_->judge(model, r);
+      return 2 * (fit.measured.neg_llh - fit.expected);
+    };
+    for (std::size_t r = 0; r < data_.runs.size(); ++r) {
+      const double before = gap(base_, r);
+      result_.gaps.push_back({data_.runs[r].name, before, before});
+    }
+    const int folds = parameters_.empty() ? 0 : options_.folds;
+    for (int fold = 0; fold < folds; ++fold) {
+      stage(0.9 + 0.1 * fold / folds, 0.9 + 0.1 * (fold + 1) / folds, "holding runs out");
+      const Model model = folds == 1 ? result_.improved : fitted_without(fold);
+      for (std::size_t r = 0; r < data_.runs.size(); ++r)
+        if (static_cast<int>(r) % folds == fold) result_.gaps[r].after = gap(model, r);
+    }
+    for (const RunGap& run : result_.gaps) result_.gap_before += run.before, result_.gap_after += run.after;
+    for (const NamedEffect& effect : result_.effects) result_.verdict.push_back(effect.suspect.effect);
+    if (unexplained) result_.verdict.push_back("unexplained");
+  }
+  Model fitted_without(int fold) {
+    const std::vector<IceParameter> parameters = with({});
+    const IceFit blind = fit(without_fold(fold), parameters, rounds_of_folds);
+    return with_parameters(base_, blind.parameters, blind.numbers);
+  }
+
+  const Model& base_;
+  FlasherData data_;
+  const DiagnosisOptions& options_;
+  const Progress& progress_;
+  FirstLook look_;
+  std::optional<ModelJudge> judge_;
+  // Of all effects that were added, fitted together.
+  std::vector<IceParameter> parameters_;
+  std::vector<double> numbers_;
+  std::vector<Span> spans_;  // by effect
+  double from_ = 0, to_ = 1;
+  std::string text_;
+  Diagnosis result_;
+};
+
+}  // namespace
+
+Diagnosis diagnose(const Model& base, const FlasherData& data, const DiagnosisOptions& options,
+                   const Progress& progress) {
+  check_options(options, data.runs.size());
+  const auto start = std::chrono::steady_clock::now();
+  Diagnosis result = Diagnoser(base, data, options, progress).run();
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace floe

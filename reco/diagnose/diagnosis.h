@@ -1,0 +1,77 @@
+// What a model is missing: where simulation and flasher data disagree, which effect of the catalogue closes
+// the gap, and how much of it. Theory: docs/theory/diagnose.md.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "data/base/progress.h"
+#include "propagation/model.h"
+#include "reco/diagnose/score_test.h"
+#include "reco/diagnose/where.h"
+#include "reco/ice_fit/ice_fit.h"
+#include "reco/ice_fit/run_data.h"
+#include "reco/ice_fit/run_plan.h"
+
+namespace floe {
+
+struct DiagnosisOptions : RunSettings {
+  double alpha = 0.01;   // probability of naming anything when nothing is missing
+  double floor = 0.005;  // changes of light smaller than this, relative, are not told from differences
+                         // between programs
+  int folds = 3;         // groups of runs, each held out once; 1 to the number of runs
+  int draws = 300;       // of light under the model, for each calibration
+  int most_effects = 4;  // that are added, one after another
+};
+
+// A fit of one suspect, beside all that is in the model already.
+struct Trial {
+  Suspect suspect;
+  std::vector<IceParameter> parameters;  // of the suspect alone
+  double neg_llh = 0;                    // of all runs, with the same random numbers as its rivals'
+};
+
+// One look at a model: is anything missing, where, and what could it be?
+struct DiagnosisStep {
+  double neg_llh = 0, expected = 0, scatter = 0;  // -ln L of all runs; mean and deviation if all were right
+  double p_of_fit = 1;                            // of so bad a fit
+  ScoreTest scores;
+  Whereabouts where;
+  std::vector<Trial> trials;    // of the leading suspects, the best first
+  std::optional<size_t> added;  // of Diagnosis::effects; none: nothing was
+};
+
+struct NamedEffect {
+  Suspect suspect;
+  std::vector<IceParameter> parameters;
+  std::vector<double> values, errors;
+  double significance = 0;         // standard deviations
+  std::vector<std::string> group;  // effects that the data cannot tell from it, itself first
+};
+
+struct RunGap {
+  std::string run;
+  double before = 0, after = 0;  // deviance above what it would be on average if the model were true
+};
+
+struct Diagnosis {
+  std::vector<std::string> verdict;  // as in result.json
+  double p_value = 1;                // of the base model, for everything tried
+  std::vector<NamedEffect> effects;
+  std::vector<DiagnosisStep> steps;  // the base model's first
+  std::vector<RunGap> gaps;          // held out
+  double gap_before = 0, gap_after = 0;
+  std::vector<std::string> left_out;  // of the data, a sentence each
+  std::vector<std::string> remarks;   // effects that were given up again
+  Model improved;
+  double seconds = 0;
+
+  double closed() const { return gap_before != 0 ? 1 - gap_after / gap_before : 0; }
+};
+
+// Throws UsageError for options out of range, NoResult when no run has light.
+Diagnosis diagnose(const Model& base, const FlasherData& data, const DiagnosisOptions& options,
+                   const Progress& progress = {});
+
+}  // namespace floe

@@ -1,0 +1,244 @@
+#include "reco/diagnose/report.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reco/figures/svg.h"
+
+namespace floe {
+
+namespace {
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '<') result += "&lt;";
+    else if (c == '>') result += "&gt;";
+    else if (c == '&') result += "&amp;";
+    else result += c;
+  }
+  return result;
+}
+
+std::string cells(const std::vector<std::string>& row, const char* tag) {
+  std::string text = "<tr>";
+  for (const std::string& cell : row) text += fmt::format("<{0}>{1}</{0}>", tag, escaped(cell));
+  return text + "</tr>\n";
+}
+
+std::string table(const std::vector<std::string>& heading, const std::vector<std::vector<std::string>>& rows) {
+  std::string text = "<table>\n" + cells(heading, "th");
+  for (const auto& row : rows) text += cells(row, "td");
+  return text + "</table>\n";
+}
+
+std::string value_text(double value, double error, const std::string& unit) {
+  const int digits = error > 0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 6) : 3;
+  return fmt::format("{:.{}f} ± {:.{}f}{}{}", value, digits, error, digits, unit.empty() ? "" : " ", unit);
+}
+
+std::string p_text(double p) {
+  return p < 1e-4 ? fmt::format("{:.1e}", p) : fmt::format("{:.4f}", p);
+}
+
+const ResidualProfile* profile_of(const DiagnosisStep& step, const std::string& axis) {
+  const auto found = std::find_if(step.where.profiles.begin(), step.where.profiles.end(),
+                                  [&](const ResidualProfile& p) { return p.axis == axis; });
+  return found == step.where.profiles.end() ? nullptr : &*found;
+}
+
+// Points with errors, before (red) and after (blue), against one axis.
+class ProfilePlot {
+ public:
+  ProfilePlot(const ResidualProfile& before, const ResidualProfile* after) : svg_(width, height) {
+    low_ = before.low.front(), high_ = before.high.back();
+    reach_ = 0.05;
+    for (const ResidualProfile* p : {&before, after})
+      for (std::size_t i = 0; p && i < p->low.size(); ++i)
+        if (p->error[i] > 0 && p->error[i] < 0.1) reach_ = std::max(reach_, std::abs(p->relative[i]) + p->error[i]);
+    reach_ = std::min(reach_ * 1.1, 1.0);
+    frame(before);
+    draw(before, "#c0392b", -1.5);
+    if (after) draw(*after, "#2166ac", 1.5);
+  }
+  std::string str() const { return svg_.str(); }
+
+ private:
+  static constexpr double width = 380, height = 230, left = 56, right = 12, top = 26, bottom = 42;
+
+  double x(double value) const { return left + (value - low_) / (high_ - low_) * (width - left - right); }
+  double y(double value) const {
+    return top + (reach_ - value) / (2 * reach_) * (height - top - bottom);
+  }
+
+  void frame(const ResidualProfile& p) {
+    svg_.rectangle({0, 0}, width, height, "#ffffff");
+    svg_.text({left, 16}, "Data above the model, by " + p.axis, 12, Anchor::start, "#222222", true);
+    for (const double tick : round_ticks(low_, high_, 6)) {
+      svg_.line({x(tick), height - bottom}, {x(tick), height - bottom + 4}, {"#444444", 1, ""});
+      svg_.text({x(tick), height - bottom + 16}, fmt::format("{:g}", tick), 11, Anchor::middle);
+    }
+    for (const double tick : round_ticks(-reach_, reach_, 5)) {
+      svg_.line({left, y(tick)}, {width - right, y(tick)}, {tick == 0 ? "#888888" : "#e4e4e4", 1, ""});
+      svg_.text({left - 6, y(tick) + 4}, fmt::format("{:g}%", 100 * tick), 11, Anchor::end);
+    }
+    svg_.text({(left + width - right) / 2, height - 8}, fmt::format("{} [{}]", p.axis, p.unit), 11,
+              Anchor::middle);
+  }
+
+  void draw(const ResidualProfile& p, const std::string& colour, double shift) {
+    for (std::size_t i = 0; i < p.low.size(); ++i) {
+      if (!(p.error[i] > 0) || p.error[i] > reach_) continue;
+      const double at = x((p.low[i] + p.high[i]) / 2) + shift;
+      const auto inside = [&](double value) { return y(std::clamp(value, -reach_, reach_)); };
+      svg_.line({at, inside(p.relative[i] - p.error[i])}, {at, inside(p.relative[i] + p.error[i])},
+                {colour, 1.2, ""});
+      svg_.circle({at, inside(p.relative[i])}, 2.6, colour);
+    }
+  }
+
+  Svg svg_;
+  double low_ = 0, high_ = 1, reach_ = 0.1;
+};
+
+std::string inline_svg(const std::string& document) {
+  const std::size_t start = document.find("<svg");
+  return start == document.npos ? document : document.substr(start);
+}
+
+std::string pictures(const Diagnosis& diagnosis) {
+  std::string text = "<div class=plots>\n";
+  const DiagnosisStep& first = diagnosis.steps.front();
+  const DiagnosisStep* last = diagnosis.steps.size() > 1 ? &diagnosis.steps.back() : nullptr;
+  for (const char* axis : {"azimuth", "depth", "distance", "arrival angle"})
+    if (const ResidualProfile* before = profile_of(first, axis))
+      text += inline_svg(ProfilePlot(*before, last ? profile_of(*last, axis) : nullptr).str()) + "\n";
+  return text + "</div>\n<p class=key><span style='color:#c0392b'>●</span> base model" +
+         (last ? " &nbsp; <span style='color:#2166ac'>●</span> with what was added" : "") + "</p>\n";
+}
+
+std::string place_rows(const NamedEffect& effect) {
+  std::string text;
+  for (const auto& [name, value] : effect.suspect.place)
+    if (name == "string" || name == "dom") text += fmt::format("{} {:.0f} ", name, value);
+  return text;
+}
+
+std::string effects_table(const Diagnosis& diagnosis) {
+  std::vector<std::vector<std::string>> rows;
+  for (const NamedEffect& effect : diagnosis.effects)
+    for (std::size_t i = 0; i < effect.values.size(); ++i)
+      rows.push_back({i == 0 ? effect.suspect.effect : "", place_rows(effect) + effect.parameters[i].name,
+                      value_text(effect.values[i], effect.errors[i], effect.parameters[i].unit),
+                      i == 0 ? fmt::format("{:.1f}", effect.significance) : "",
+                      i == 0 ? fmt::format("{}", fmt::join(effect.group, ", ")) : ""});
+  return table({"effect", "parameter", "fitted", "standard deviations", "cannot be told from"}, rows);
+}
+
+std::string score_table(const DiagnosisStep& step) {
+  std::vector<std::vector<std::string>> rows;
+  for (const EffectScore& effect : step.scores.effects)
+    rows.push_back({text_of(effect.best.suspect), fmt::format("{:.1f}", effect.best.gain),
+                    fmt::format("{:.1f}", sigmas_of(effect.ln_p)),
+                    fmt::format("{:.1f}%", 100 * effect.best.size), fmt::format("{:.2f}", effect.likeness)});
+  return table({"effect", "expected gain in ln L", "standard deviations", "changes light by", "likeness to the first"},
+               rows);
+}
+
+std::string trial_table(const DiagnosisStep& step) {
+  std::vector<std::vector<std::string>> rows;
+  for (const Trial& trial : step.trials)
+    rows.push_back({text_of(trial.suspect), fmt::format("{}", trial.parameters.size()),
+                    fmt::format("{:.1f}", trial.neg_llh)});
+  return table({"fitted", "parameters", "−ln L"}, rows);
+}
+
+std::string region_table(const DiagnosisStep& step) {
+  std::vector<std::vector<std::string>> rows;
+  for (const Region& region : step.where.regions)
+    rows.push_back({region.axis, fmt::format("{:.1f}", region.significance), region.sentence});
+  return table({"axis", "standard deviations", "most significant region"}, rows);
+}
+
+std::string step_text(const Diagnosis& diagnosis, std::size_t i) {
+  const DiagnosisStep& step = diagnosis.steps[i];
+  std::string text = fmt::format(
+      "<h2>Look {}: {}</h2>\n<p>−ln L {:.1f}; {:.1f} ± {:.1f} expected if the model were right. "
+      "Probability of so bad a fit {}, of so large a score {}.</p>\n",
+      i + 1, i == 0 ? "the base model" : "with what was added so far", step.neg_llh, step.expected,
+      step.scatter, p_text(step.p_of_fit), p_text(step.scores.p_value));
+  text += "<h3>Where</h3>\n" + region_table(step);
+  text += "<h3>Which effect would explain it</h3>\n" + score_table(step);
+  if (!step.trials.empty()) text += "<h3>Leading suspects, fitted</h3>\n" + trial_table(step);
+  return text;
+}
+
+std::string gap_table(const Diagnosis& diagnosis) {
+  std::vector<std::vector<std::string>> rows;
+  for (const RunGap& run : diagnosis.gaps)
+    rows.push_back({run.run, fmt::format("{:.1f}", run.before), fmt::format("{:.1f}", run.after)});
+  rows.push_back({"all", fmt::format("{:.1f}", diagnosis.gap_before), fmt::format("{:.1f}", diagnosis.gap_after)});
+  return table({"run, held out", "gap before", "gap after"}, rows);
+}
+
+constexpr const char* style =
+    "body{font:15px/1.5 sans-serif;max-width:60em;margin:2em auto;padding:0 1em;color:#222}"
+    "h1{font-size:1.5em}h2{font-size:1.2em;margin-top:2em;border-bottom:1px solid #ccc}h3{font-size:1em}"
+    "table{border-collapse:collapse;margin:.5em 0}td,th{padding:.15em .8em;text-align:left;"
+    "border-bottom:1px solid #e4e4e4;font-size:.92em}.verdict{font-size:1.15em;background:#f2f6fa;"
+    "padding:.8em 1em;border-left:4px solid #2166ac}.plots{display:flex;flex-wrap:wrap;gap:.5em}"
+    ".key{font-size:.9em}code{background:#f4f4f4;padding:.1em .3em;overflow-wrap:anywhere}";
+
+}  // namespace
+
+std::string verdict_sentence(const Diagnosis& diagnosis, double alpha) {
+  if (diagnosis.verdict.empty())
+    return fmt::format("Nothing is missing: the data agree with the model (p = {}, alpha = {:g}).",
+                       p_text(diagnosis.p_value), alpha);
+  const bool unexplained = diagnosis.verdict.back() == "unexplained";
+  std::string text;
+  for (const NamedEffect& effect : diagnosis.effects)
+    text += (text.empty() ? "" : ", and ") + text_of(effect.suspect);
+  if (text.empty())
+    return fmt::format("Something is missing (p = {}) that no effect of the catalogue explains.",
+                       p_text(diagnosis.p_value));
+  return fmt::format("Missing: {} (p = {} for the base model). {:.0f}% of the gap in held-out runs closes{}.",
+                     text, p_text(diagnosis.p_value), 100 * diagnosis.closed(),
+                     unexplained ? "; something remains that no effect of the catalogue explains" : "");
+}
+
+std::string report_html(const Diagnosis& diagnosis, const DiagnosisOptions& options, const ReportFacts& facts) {
+  std::string text = fmt::format(
+      "<!doctype html>\n<html lang=en><head><meta charset=utf-8><title>Diagnosis of {0}</title>"
+      "<style>{1}</style></head><body>\n<h1>What is {0} missing?</h1>\n",
+      escaped(facts.ice), style);
+  text += fmt::format("<p>Flasher data: {}</p>\n<p class=verdict>{}</p>\n", escaped(facts.data),
+                      escaped(verdict_sentence(diagnosis, options.alpha)));
+  const auto& regions = diagnosis.steps.front().where.regions;
+  if (!diagnosis.verdict.empty())
+    for (std::size_t i = 0; i < std::min<std::size_t>(3, regions.size()); ++i)
+      if (regions[i].significance > 3) text += fmt::format("<p>{}</p>\n", escaped(regions[i].sentence));
+  text += pictures(diagnosis);
+  if (!diagnosis.effects.empty()) text += "<h2>Added to the model</h2>\n" + effects_table(diagnosis);
+  for (const std::string& remark : diagnosis.remarks) text += "<p>" + escaped(remark) + ".</p>\n";
+  text += "<h2>Gap before and after</h2>\n<p>Deviance of each run above what it would be on average if the "
+          "model were true; after: of models that were fitted to other runs.</p>\n" +
+          gap_table(diagnosis);
+  for (std::size_t i = 0; i < diagnosis.steps.size(); ++i) text += step_text(diagnosis, i);
+  if (!diagnosis.left_out.empty()) {
+    text += "<h2>Left out</h2>\n<ul>\n";
+    for (const std::string& sentence : diagnosis.left_out) text += "<li>" + escaped(sentence) + "</li>\n";
+    text += "</ul>\n";
+  }
+  text += fmt::format(
+      "<h2>To repeat this</h2>\n<p><code>{}</code></p>\n<p>floe {}, seed {}, {:.0f} s. alpha {:g}: the "
+      "probability of naming anything when nothing is missing. Floor {:g}%: smaller changes of light are not "
+      "told from differences between programs.</p>\n</body></html>\n",
+      escaped(facts.command), facts.version, facts.seed, diagnosis.seconds, options.alpha, 100 * options.floor);
+  return text;
+}
+
+}  // namespace floe

@@ -1,0 +1,19 @@
+// A diagnosis as a page for people: one self-contained HTML document.
+#pragma once
+
+#include <string>
+
+#include "reco/diagnose/diagnosis.h"
+
+namespace floe {
+
+struct ReportFacts {
+  std::string data, ice, command, version;
+  std::uint64_t seed = 1;
+};
+
+// One sentence: what is missing, or that nothing is.
+std::string verdict_sentence(const Diagnosis& diagnosis, double alpha);
+std::string report_html(const Diagnosis& diagnosis, const DiagnosisOptions& options, const ReportFacts& facts);
+
+}  // namespace floe

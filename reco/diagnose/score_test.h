@@ -1,0 +1,49 @@
+// Which change of the model would explain the data best? The score test of every suspect at once, calibrated
+// on light that is drawn from the model itself.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "reco/diagnose/suspects.h"
+#include "reco/diagnose/survey.h"
+
+namespace floe {
+
+struct Score {
+  Suspect suspect;
+  double gain = 0;             // expected of -ln L, by the best amplitudes
+  Eigen::VectorXd amplitudes;  // the best, to first order
+  // Light's root mean square relative change at these amplitudes, weighted by counts.
+  double size = 0;
+};
+
+// The best suspect of one effect, judged among all places that were tried.
+struct EffectScore {
+  Score best;
+  double ln_p = 0;  // logarithm of the probability of as much gain from any of its suspects if nothing is missing
+  // Share of the best suspect's change of light that this one can imitate: correlation, brightness and time
+  // zero of runs apart.
+  double likeness = 0;
+};
+
+struct ScoreTest {
+  std::vector<EffectScore> effects;  // the least ln_p first; likeness is with the first
+  double p_value = 1;                // of the first, for everything tried
+};
+
+// `draws`: of the calibration. Effects that change light by less than `floor` are not told from small
+// differences between programs: their gain is 0.
+ScoreTest test_scores(const Survey& survey, const std::vector<Suspect>& suspects,
+                      const std::vector<IceParameter>& parameters, double floor, int draws, std::uint64_t seed);
+
+// Logarithm of the probability of at least this gain, given what draws gained: beyond most of them it falls
+// as exp(-gain), as that of chi-square does.
+double ln_tail_probability(double gain, const std::vector<double>& drawn);
+
+// Standard deviations of a Gaussian that are exceeded, up or down, with this probability.
+double sigmas_of(double ln_p);
+
+}  // namespace floe

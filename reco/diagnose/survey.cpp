@@ -1,0 +1,375 @@
+#include "reco/diagnose/survey.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "reco/diagnose/displaced_strings.h"
+#include "reco/ice_fit/ice_point.h"
+#include "reco/ice_fit/smooth_slopes.h"
+
+namespace floe {
+
+namespace {
+
+constexpr std::uint64_t first_stream = std::uint64_t{1} << 42, streams_a_run = 1 << 10,
+                        streams_a_survey = 1 << 20;
+// Strings and modules with less light, in counts of the data, are not looked at one by one.
+constexpr double light_of_string = 300, light_of_module = 150;
+
+using Kind = SurveyColumn::Kind;
+
+// Light by string and by module over all runs, as counts of the data.
+struct LightByPlace {
+  std::map<int, double> strings;
+  std::map<ModuleId, double> modules;
+};
+LightByPlace light_by_place(const Survey& survey, const Detector& detector) {
+  LightByPlace light;
+  for (const SurveyRun& run : survey.runs)
+    for (const RunBins::Receiver& receiver : run.bins.receivers()) {
+      const ModuleId id = detector.modules()[receiver.module].id;
+      const double counts = run.expected.segment(receiver.first, receiver.bins()).sum();
+      light.strings[id.string] += counts;
+      light.modules[id] += counts;
+    }
+  return light;
+}
+
+std::vector<SurveyColumn> place_columns(const LightByPlace& light) {
+  std::vector<SurveyColumn> columns;
+  for (const auto& [string, counts] : light.strings) {
+    if (counts < light_of_string) continue;
+    for (const Kind kind :
+         {Kind::string_efficiency, Kind::string_time, Kind::string_x, Kind::string_y, Kind::string_z})
+      columns.push_back({kind, 0, string, 0});
+  }
+  for (const auto& [id, counts] : light.modules)
+    if (counts >= light_of_module) columns.push_back({Kind::module_efficiency, 0, id.string, id.dom});
+  return columns;
+}
+
+// Slopes of ln(light) in a run's bins, of one fold.
+struct RunSlopes {
+  Eigen::MatrixXd parameters;  // bins x parameters
+  Eigen::MatrixXd raw;         // the same, as simulated: right on average, but noisy
+  Eigen::MatrixXd places;      // bins x 3: all strings but the flasher's own moved along x, y, z
+  Eigen::VectorXd delay;
+};
+
+// Of a change of one place: nothing in the bins of all others.
+Eigen::VectorXd place_slope(const SurveyColumn& column, const SurveyRun& run, const RunSlopes& slopes,
+                            const Detector& detector) {
+  Eigen::VectorXd slope = Eigen::VectorXd::Zero(run.bins.size());
+  const bool own_string = run.data.run.module.string == column.string;
+  for (const RunBins::Receiver& receiver : run.bins.receivers()) {
+    const ModuleId id = detector.modules()[receiver.module].id;
+    auto of_receiver = slope.segment(receiver.first, receiver.bins());
+    const bool here = id.string == column.string;
+    switch (column.kind) {
+      case Kind::parameter: break;
+      case Kind::module_efficiency:
+        if (here && id.dom == column.dom) of_receiver.setOnes();
+        break;
+      case Kind::string_efficiency:
+        if (here) of_receiver.setOnes();
+        break;
+      case Kind::string_time:
+        if (here) of_receiver = slopes.delay.segment(receiver.first, receiver.bins());
+        break;
+      case Kind::string_x:
+      case Kind::string_y:
+      case Kind::string_z: {
+        const int axis = static_cast<int>(column.kind) - static_cast<int>(Kind::string_x);
+        const auto moved = slopes.places.col(axis).segment(receiver.first, receiver.bins());
+        // With the flasher's own string, all others move the other way for it.
+        if (own_string && !here) of_receiver = -moved;
+        if (!own_string && here) of_receiver = moved;
+        break;
+      }
+    }
+  }
+  return slope;
+}
+
+// Slopes without what brightness and time zero could do.
+Eigen::MatrixXd projected(const Eigen::MatrixXd& slopes, const Eigen::MatrixXd& nuisance,
+                          const Eigen::ArrayXd& weight) {
+  const Eigen::MatrixXd weighted = nuisance.array().colwise() * weight;
+  const Eigen::MatrixXd normal = nuisance.transpose() * weighted;
+  return slopes - nuisance * normal.ldlt().solve(weighted.transpose() * slopes);
+}
+
+class Surveyor {
+ public:
+  Surveyor(const Model& model, const FlasherData& data, const FirstLook& look, const SurveyPlan& plan,
+           const RunSettings& settings, const Progress& progress)
+      : data_(data),
+        look_(look),
+        plan_(plan),
+        settings_(settings),
+        progress_(progress),
+        point_(model, plan.parameters, starts(plan.parameters), data.runs.front().run.wavelength) {}
+
+  Survey run() {
+    for (std::size_t r = 0; r < data_.runs.size(); ++r) look_at(r);
+    for (std::size_t p = 0; p < plan_.parameters.size(); ++p)
+      survey_.columns.push_back({Kind::parameter, p, 0, 0});
+    if (plan_.places) {
+      const auto places = place_columns(light_by_place(survey_, detector()));
+      survey_.columns.insert(survey_.columns.end(), places.begin(), places.end());
+    }
+    add_up();
+    return std::move(survey_);
+  }
+
+ private:
+  const Detector& detector() const { return *point_.model().detector; }
+
+  static std::vector<double> starts(const std::vector<IceParameter>& parameters) {
+    std::vector<double> numbers;
+    for (const IceParameter& parameter : parameters) numbers.push_back(parameter.start);
+    return numbers;
+  }
+
+  RunRequest request(std::size_t r, std::uint64_t purpose, double photons) const {
+    return {data_.runs[r].run,
+            photons,
+            settings_.oversize,
+            settings_.seed,
+            first_stream + plan_.stream * streams_a_survey + r * streams_a_run + purpose,
+            settings_.threads};
+  }
+
+  void look_at(std::size_t r) {
+    const RunData& run = data_.runs[r];
+    if (progress_)
+      progress_(static_cast<double>(r) / static_cast<double>(data_.runs.size()),
+                fmt::format("light of {} and all that could change it", run.name));
+    const double photons = photons_wanted(run, look_.hits_per_photon[r], settings_.light);
+    // Time zero first, with a little light: bins go with it.
+    const double brightness = run.charge / look_.hits_per_photon[r];
+    Scout scout = scout_run(point_.model(), request(r, 0, photons), 0);
+    const double time_zero = measure_run(scout.simulated, scout.photons, run, bins_of(scout, run, brightness),
+                                         {}, settings_.model_error)
+                                 .nuisances.time_zero;
+    delay(scout.simulated, time_zero);
+    const RunBins bins = bins_of(scout, run, brightness);
+
+    SimulatedRun simulated = simulate_run(point_.model(), request(r, 1, photons));
+    survey_.photons += scout.simulated.propagated + simulated.propagated;
+    delay(simulated, time_zero);
+    const RunMeasurement measured =
+        measure_run(simulated, photons, run, bins, {brightness, 0}, settings_.model_error);
+    SurveyRun result;
+    result.name = run.name;
+    result.data = run;
+    result.bins = bins;
+    result.first = survey_.bins;
+    result.nuisances = {measured.nuisances.brightness, time_zero};
+    result.photons = photons;
+    result.scale = measured.nuisances.brightness / photons;
+    result.dispersion = dispersion(simulated);
+    result.model_error = settings_.model_error;
+    result.draws = PhotonDraws(simulated, bins, result.scale, run.run.oversize > 1);
+    result.data_dispersion = run.run.oversize > 1 ? result.dispersion : 1;
+    measure_slopes(request(r, 1, photons), simulated, result);
+    survey_.bins += bins.size();
+    survey_.runs.push_back(std::move(result));
+  }
+
+  void measure_slopes(const RunRequest& request, const SimulatedRun& simulated, SurveyRun& run) {
+    const double time_zero = run.nuisances.time_zero;
+    const PairPlan pairs{plan_.pair_reach, plan_.pair_light, plan_.one_sided, 1};
+    const auto [light, propagated] = point_.light(request, simulated, run.bins, time_zero, pairs);
+    survey_.photons += propagated;
+    run.counts = {run.data.counts(run.bins), {light.folds[0].counts, light.folds[1].counts}};
+    RunSlopes slopes[2];
+    const SmoothSlopes smooth = smooth_slopes(light.folds, light.places, light.symmetric);
+    for (std::size_t fold = 0; fold < 2; ++fold) {
+      slopes[fold].parameters = smooth.fold[fold];
+      slopes[fold].raw = light.folds[fold].slopes.array().colwise() / light.folds[fold].counts.array().max(1);
+    }
+    // Pairs have photons of their own, so that both halves of theirs may serve.
+    for (Eigen::Index p = 0; p < slopes[0].parameters.cols(); ++p)
+      if (!light.symmetric[static_cast<std::size_t>(p)])
+        slopes[0].parameters.col(p) = slopes[1].parameters.col(p) = (smooth.fold[0].col(p) + smooth.fold[1].col(p)) / 2;
+    if (plan_.places) {
+      RunRequest other = request;
+      other.stream += 2;
+      const DisplacedStrings displaced =
+          displaced_strings(point_.model(), other, run.bins, time_zero, light, plan_.pair_light / 2);
+      survey_.photons += displaced.propagated;
+      slopes[0].places = slopes[1].places = (displaced.fold[0] + displaced.fold[1]) / 2;
+    }
+    const Eigen::ArrayXd both = run.counts.simulated[0] + run.counts.simulated[1];
+    run.expected = run.scale * both;
+    run.trust =
+        1 / (1 + run.expected * (1 / both.max(1) + settings_.model_error * settings_.model_error));
+    const Eigen::ArrayXd delay = (light.folds[0].delay + light.folds[1].delay).array() / both.max(1);
+    run.nuisance.resize(run.bins.size(), 2);
+    run.nuisance << Eigen::VectorXd::Ones(run.bins.size()), delay.matrix();
+    for (RunSlopes& fold : slopes) {
+      fold.delay = delay.matrix();
+      slopes_.push_back(std::move(fold));
+    }
+  }
+
+  void add_up() {
+    const auto size = static_cast<Eigen::Index>(survey_.columns.size());
+    const auto parameters = static_cast<Eigen::Index>(plan_.parameters.size());
+    survey_.information = Eigen::MatrixXd::Zero(size, size);
+    survey_.noise = survey_.information;
+    of_slopes_ = Eigen::VectorXd::Zero(parameters);
+    for (std::size_t r = 0; r < survey_.runs.size(); ++r) {
+      SurveyRun& run = survey_.runs[r];
+      for (std::size_t fold = 0; fold < 2; ++fold) {
+        const RunSlopes& slopes = slopes_[2 * r + fold];
+        Eigen::MatrixXd all(run.bins.size(), size);
+        all.leftCols(parameters) = slopes.parameters;
+        for (Eigen::Index c = parameters; c < size; ++c)
+          all.col(c) = place_slope(survey_.columns[static_cast<std::size_t>(c)], run, slopes, detector());
+        run.weights[fold] = projected(all, run.nuisance, run.trust * run.expected);
+      }
+      add_run(run);
+      of_slopes_ += own_information(run, slopes_[2 * r], slopes_[2 * r + 1]);
+    }
+    scale_to_slopes();
+    survey_.information = (survey_.information + survey_.information.transpose()).eval() / 2;
+  }
+
+  // By parameter: what the diagonal of the information would be with slopes as simulated, right on average,
+  // in place of one of the two weights.
+  Eigen::VectorXd own_information(const SurveyRun& run, const RunSlopes& even, const RunSlopes& odd) const {
+    const Eigen::Index parameters = even.raw.cols();
+    const Eigen::ArrayXd light = run.trust * run.expected;
+    Eigen::VectorXd sums(parameters);
+    for (Eigen::Index p = 0; p < parameters; ++p)
+      sums(p) = (light * (run.weights[0].col(p).array() * odd.raw.col(p).array() +
+                          run.weights[1].col(p).array() * even.raw.col(p).array()))
+                    .sum() /
+                2;
+    return sums;
+  }
+
+  // Weights are shrunk where slopes are noisy. Scaled back, they are what the slopes are on average, and
+  // amplitudes come out right.
+  void scale_to_slopes() {
+    constexpr double least = 0.3, most = 3;  // weights further off are of no use
+    // Layers of a family one by one would be too noisy.
+    struct Sums {
+      double slope = 0, information = 0;
+    };
+    std::map<std::string, Sums> sums;
+    const auto group = [&](Eigen::Index p) {
+      const IceParameter& parameter = plan_.parameters[static_cast<std::size_t>(p)];
+      return parameter.family.empty() ? parameter.name : parameter.family;
+    };
+    for (Eigen::Index p = 0; p < of_slopes_.size(); ++p) {
+      sums[group(p)].slope += of_slopes_(p);
+      sums[group(p)].information += survey_.information(p, p);
+    }
+    Eigen::VectorXd factor = Eigen::VectorXd::Ones(survey_.information.cols());
+    for (Eigen::Index p = 0; p < of_slopes_.size(); ++p)
+      if (const Sums& own = sums[group(p)]; own.information > 0)
+        factor(p) = std::clamp(own.slope / own.information, least, most);
+    for (SurveyRun& run : survey_.runs)
+      for (Eigen::MatrixXd& weights : run.weights) weights = weights * factor.asDiagonal();
+    survey_.information = factor.asDiagonal() * survey_.information * factor.asDiagonal();
+    survey_.noise = factor.asDiagonal() * survey_.noise * factor.asDiagonal();
+  }
+
+  void add_run(const SurveyRun& run) {
+    const auto weighted = [&](const Eigen::MatrixXd& w, const Eigen::ArrayXd& variance) {
+      return Eigen::MatrixXd(w.array().colwise() * (variance * run.trust.square()).sqrt());
+    };
+    const auto add_noise = [&](const Eigen::MatrixXd& w, const Eigen::ArrayXd& variance) {
+      const Eigen::MatrixXd root = weighted(w, variance);
+      survey_.noise.noalias() += root.transpose() * root;
+    };
+    const Eigen::MatrixXd light =
+        run.weights[1].array().colwise() * (run.trust * run.expected);
+    survey_.information.noalias() += run.weights[0].transpose() * light;
+    // The half that weights come from does not judge them: each half's expectation stands for all the light.
+    for (std::size_t fold = 0; fold < 2; ++fold)
+      add_noise(run.weights[fold],
+                run.dispersion * run.scale * run.scale * run.counts.simulated[1 - fold].array());
+    const double known = run.model_error * run.model_error;
+    add_noise((run.weights[0] + run.weights[1]) / 2,
+              run.data_dispersion * run.expected + known * run.expected.square());
+  }
+
+  const FlasherData& data_;
+  const FirstLook& look_;
+  const SurveyPlan& plan_;
+  const RunSettings& settings_;
+  const Progress& progress_;
+  IcePoint point_;
+  Survey survey_;
+  std::vector<RunSlopes> slopes_;  // of each run, even and odd photons
+  Eigen::VectorXd of_slopes_;      // by parameter
+};
+
+}  // namespace
+
+SurveyCounts measured_counts(const Survey& survey) {
+  SurveyCounts counts;
+  for (const SurveyRun& run : survey.runs) counts.push_back(run.counts);
+  return counts;
+}
+
+SurveyCounts drawn_counts(const Survey& survey, std::uint64_t seed, std::uint64_t draw) {
+  SurveyCounts counts;
+  std::seed_seq sequence{seed, seed >> 32, draw};
+  std::mt19937_64 random(sequence);
+  for (const SurveyRun& run : survey.runs) counts.push_back(run.draws.draw(random));
+  return counts;
+}
+
+Eigen::VectorXd gap_of(const Survey& survey, const SurveyCounts& counts) {
+  Eigen::VectorXd gap = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(survey.columns.size()));
+  for (std::size_t r = 0; r < survey.runs.size(); ++r) {
+    const SurveyRun& run = survey.runs[r];
+    for (std::size_t fold = 0; fold < 2; ++fold) {
+      const Eigen::ArrayXd expected = 2 * run.scale * counts[r].simulated[1 - fold].array();
+      gap += run.weights[fold].transpose() * (run.trust * (counts[r].data.array() - expected)).matrix() / 2;
+    }
+  }
+  return gap;
+}
+
+std::vector<double> neg_llh_of(const Survey& survey, const SurveyCounts& counts) {
+  std::vector<double> sums;
+  for (std::size_t r = 0; r < survey.runs.size(); ++r) {
+    const SurveyRun& run = survey.runs[r];
+    const Eigen::VectorXd simulated = counts[r].simulated[0] + counts[r].simulated[1];
+    sums.push_back(measure_counts({counts[r].data, simulated / run.dispersion, run.photons / run.dispersion},
+                                  run.nuisances.brightness, run.model_error)
+                       .neg_llh);
+  }
+  return sums;
+}
+
+Eigen::VectorXd residual_of(const Survey& survey, const SurveyCounts& counts) {
+  Eigen::VectorXd residual(survey.bins);
+  for (std::size_t r = 0; r < survey.runs.size(); ++r) {
+    const SurveyRun& run = survey.runs[r];
+    const Eigen::ArrayXd off =
+        counts[r].data.array() - run.scale * (counts[r].simulated[0] + counts[r].simulated[1]).array();
+    const Eigen::ArrayXd relative = off / run.expected.max(1e-9);
+    residual.segment(run.first, run.bins.size()) =
+        projected(relative.matrix(), run.nuisance, run.trust * run.expected).array() * run.expected;
+  }
+  return residual;
+}
+
+Survey survey_data(const Model& model, const FlasherData& data, const FirstLook& look, const SurveyPlan& plan,
+                   const RunSettings& settings, const Progress& progress) {
+  return Surveyor(model, data, look, plan, settings, progress).run();
+}
+
+}  // namespace floe

@@ -1,0 +1,180 @@
+#include "reco/diagnose/suspects.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "propagation/effects/effect.h"
+
+namespace floe {
+
+namespace {
+
+constexpr double beyond_flashers = 150;  // light of a flasher tells little of ice further above or below [m]
+constexpr double thickness = 20;         // of the layers that bands are made of [m]
+constexpr double displaced_strings_at_most = 6;  // [m]
+constexpr double widest_band = 160;      // [m]; wider ones are no bands
+
+using Kind = SurveyColumn::Kind;
+
+// What brightness and time zero of each run take up, and what bands and places say.
+bool is_plain(const std::string& effect) {
+  static const std::vector<std::string> others{
+      "overall-efficiency", "flasher-brightness", "time-offset",     "absorption-layer",
+      "scattering-layer",   "module-efficiency",  "string-efficiency", "geometry-offset"};
+  return std::find(others.begin(), others.end(), effect) == others.end();
+}
+
+// Whether it changes anything: the scattering length of hole ice does not where there is none.
+bool matters(const Model& model, const IceParameter& parameter) {
+  const double step = parameter.scale * (parameter.start + 0.1 * parameter.scale > parameter.high ? -0.1 : 0.1);
+  try {
+    const Model moved = with_parameters(model, {parameter}, {parameter.start + step});
+    return moved.ice->hash() != model.ice->hash() || !(moved.sources == model.sources) ||
+           moved.detector->hash() != model.detector->hash() ||
+           moved.acceptance.angular.coefficients() != model.acceptance.angular.coefficients();
+  } catch (const std::exception&) {
+    return false;  // it makes no sense in this model
+  }
+}
+
+// A parameter of an effect at a place.
+IceParameter parameter_at_place(const std::string& effect, const std::string& name, const Suspect& suspect,
+                                const Model& base) {
+  const auto all = find_effect(effect).parameters(parts_of(base));
+  std::vector<double> values;
+  std::size_t index = 0;
+  for (const EffectParameter& p : all) {
+    const auto place = suspect.place.find(p.name);
+    if (p.name == name) index = values.size();
+    values.push_back(place != suspect.place.end() ? place->second : p.null_value);
+  }
+  IceParameter parameter;
+  parameter.name = effect + "." + name;
+  parameter.unit = all[index].unit;
+  parameter.start = all[index].null_value;
+  parameter.low = all[index].low;
+  parameter.high = all[index].high;
+  parameter.scale = name == "factor" ? 0.3 : 2;
+  parameter.apply = [effect, values, index](double number, ModelParts& model) {
+    std::vector<double> at = values;
+    at[index] = number;
+    find_effect(effect).apply(at, model);
+  };
+  return parameter;
+}
+
+double within(const IceParameter& parameter, double number) {
+  const double longest = 2 * parameter.scale;
+  number = std::clamp(number, parameter.start - longest, parameter.start + longest);
+  return std::clamp(number, parameter.low, parameter.high);
+}
+
+void add_bands(const SuspectPlan& plan, const char* effect, int first, std::vector<Suspect>& suspects) {
+  const BandGrid& grid = plan.bands;
+  for (int i = 0; i < grid.groups; ++i)
+    for (int k = i; k < grid.groups && (k - i + 1) * grid.step <= widest_band; ++k) {
+      Suspect band;
+      band.effect = effect;
+      band.place = {{"depth", grid.top + (i + k + 1) / 2.0 * grid.step}, {"width", (k - i + 1) * grid.step}};
+      band.amplitudes.resize(1);
+      for (int group = i; group <= k; ++group) band.amplitudes[0].emplace_back(first + group, 1.0);
+      suspects.push_back(std::move(band));
+    }
+}
+
+}  // namespace
+
+SuspectPlan plan_suspects(const Model& model, double shallowest, double deepest) {
+  SuspectPlan plan;
+  for (const Effect* effect : effects()) {
+    if (!is_plain(effect->name())) continue;
+    for (const EffectParameter& parameter : effect->parameters(parts_of(model))) {
+      IceParameter p = effect_parameter(effect->name() + "." + parameter.name, model);
+      if (matters(model, p)) plan.parameters.push_back(std::move(p));
+    }
+  }
+  const auto& layers = model.ice->tables().layers;
+  DepthRange range{std::max(shallowest - beyond_flashers, layers.front().depth),
+                   std::min(deepest + beyond_flashers, layers.back().depth), 1};
+  range.groups = std::max(1, static_cast<int>((range.bottom - range.top) / thickness));
+  plan.bands = {range.top, (range.bottom - range.top) / range.groups, range.groups};
+  plan.first_layer = static_cast<int>(plan.parameters.size());
+  for (const LayerFamily family : {LayerFamily::absorption, LayerFamily::scattering})
+    for (IceParameter& p : layer_parameters(family, range)) plan.parameters.push_back(std::move(p));
+  return plan;
+}
+
+std::vector<Suspect> suspects_of(const Survey& survey, const SuspectPlan& plan) {
+  std::vector<Suspect> suspects;
+  for (int p = 0; p < plan.first_layer; ++p) {
+    const std::string& effect = plan.parameters[static_cast<std::size_t>(p)].effect->effect;
+    if (suspects.empty() || suspects.back().effect != effect) suspects.push_back({effect, {}, {}});
+    suspects.back().amplitudes.push_back({{p, 1.0}});
+  }
+  add_bands(plan, "absorption-layer", plan.first_layer, suspects);
+  add_bands(plan, "scattering-layer", plan.first_layer + plan.bands.groups, suspects);
+  for (std::size_t c = 0; c < survey.columns.size(); ++c) {
+    const SurveyColumn& column = survey.columns[c];
+    const auto index = static_cast<int>(c);
+    const auto string = static_cast<double>(column.string);
+    if (column.kind == Kind::string_efficiency)
+      suspects.push_back({"string-efficiency", {{"string", string}}, {{{index, 1.0}}}});
+    else if (column.kind == Kind::module_efficiency)
+      suspects.push_back({"module-efficiency",
+                          {{"string", string}, {"dom", static_cast<double>(column.dom)}},
+                          {{{index, 1.0}}}});
+    else if (column.kind == Kind::string_x)
+      suspects.push_back({"geometry-offset",
+                          {{"string", string}},
+                          {{{index, 1.0}}, {{index + 1, 1.0}}, {{index + 2, 1.0}}},
+                          displaced_strings_at_most});
+  }
+  return suspects;
+}
+
+std::vector<IceParameter> fit_parameters(const Suspect& suspect, const Eigen::VectorXd& amplitudes,
+                                         const Model& base) {
+  std::vector<IceParameter> parameters;
+  if (suspect.place.count("depth")) {
+    for (const char* name : {"depth", "width", "factor"})
+      parameters.push_back(effect_parameter(suspect.effect + "." + name, base));
+    parameters[0].start = suspect.place.at("depth");
+    parameters[1].start = suspect.place.at("width");
+    parameters[2].start = std::clamp(std::exp(amplitudes(0)), 0.4, 2.5);
+  } else if (suspect.place.count("string")) {
+    const std::vector<std::string> names = suspect.effect == "geometry-offset"
+                                               ? std::vector<std::string>{"x", "y", "z"}
+                                               : std::vector<std::string>{"factor"};
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      parameters.push_back(parameter_at_place(suspect.effect, names[i], suspect, base));
+      IceParameter& p = parameters.back();
+      p.start = within(p, p.start + amplitudes(static_cast<Eigen::Index>(i)));
+    }
+  } else {
+    Eigen::Index i = 0;
+    for (const EffectParameter& parameter : find_effect(suspect.effect).parameters(parts_of(base))) {
+      IceParameter p = effect_parameter(suspect.effect + "." + parameter.name, base);
+      if (!matters(base, p)) continue;
+      p.start = within(p, p.start + amplitudes(i++));
+      parameters.push_back(std::move(p));
+    }
+  }
+  return parameters;
+}
+
+std::string text_of(const Suspect& suspect) {
+  const auto& place = suspect.place;
+  if (const auto depth = place.find("depth"); depth != place.end()) {
+    const double half = place.at("width") / 2;
+    return fmt::format("{} at {:.0f}-{:.0f} m", suspect.effect, depth->second - half, depth->second + half);
+  }
+  if (const auto dom = place.find("dom"); dom != place.end())
+    return fmt::format("{} of {:.0f},{:.0f}", suspect.effect, place.at("string"), dom->second);
+  if (const auto string = place.find("string"); string != place.end())
+    return fmt::format("{} of string {:.0f}", suspect.effect, string->second);
+  return suspect.effect;
+}
+
+}  // namespace floe

@@ -1,0 +1,49 @@
+// What may be missing in a model: each effect of the catalogue, at every place where it may act.
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reco/diagnose/survey.h"
+#include "reco/ice_fit/ice_parameter.h"
+
+namespace floe {
+
+// Depths that bands are looked for in.
+struct BandGrid {
+  double top = 0, step = 0;  // of the shallowest group, thickness of each [m]
+  int groups = 0;
+};
+
+// A hypothesis: an effect, at a place where it needs one, with amplitudes that the data choose.
+struct Suspect {
+  std::string effect;
+  std::map<std::string, double> place;  // string, dom; depth and width of a band [m]
+  // By amplitude: columns of the survey and their weights in it.
+  std::vector<std::vector<std::pair<int, double>>> amplitudes;
+  double largest = 1e9;  // amplitude that makes sense
+};
+
+// The parameters of all effects of the ice, modules and flashers that need no place, and layer by layer those
+// of bands: what a survey asks for. The layers come last: absorption, then scattering.
+struct SuspectPlan {
+  std::vector<IceParameter> parameters;
+  BandGrid bands;
+  int first_layer = 0;  // index of the first group's absorption
+};
+// `shallowest`, `deepest`: flashers [m].
+SuspectPlan plan_suspects(const Model& model, double shallowest, double deepest);
+
+std::vector<Suspect> suspects_of(const Survey& survey, const SuspectPlan& plan);
+
+// Parameters for a fit of this suspect on a base model. They begin where the survey's amplitudes suggest.
+std::vector<IceParameter> fit_parameters(const Suspect& suspect, const Eigen::VectorXd& amplitudes,
+                                         const Model& base);
+
+// "geometry-offset of string 36", "absorption-layer at 1740-1810 m", "tilt"
+std::string text_of(const Suspect& suspect);
+
+}  // namespace floe

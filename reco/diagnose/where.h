@@ -1,0 +1,40 @@
+// Where simulation and data disagree: along each of several axes, the region that sticks out the most.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "propagation/model.h"
+#include "reco/diagnose/survey.h"
+
+namespace floe {
+
+// Light along one axis, in the survey's cells of it.
+struct ResidualProfile {
+  std::string axis;  // "depth", "azimuth", "distance", "time", "string", "module", "arrival angle"
+  std::string unit;
+  bool ordered = true;     // neighbouring cells may form a region
+  bool circular = false;   // and the last is the first one's neighbour
+  std::vector<double> low, high;       // of the cells; of strings and modules their numbers
+  std::vector<std::string> names;      // of the cells, where they are no ranges
+  std::vector<double> relative, error;  // counts above the expectation, as a share of it
+};
+
+struct Region {
+  std::string axis;
+  double from = 0, to = 0;
+  int sign = 0;              // +1: the data have more light than the model
+  double relative = 0;       // by that share
+  double significance = 0;   // standard deviations, corrected for the places looked at on this axis
+  std::string sentence;
+};
+
+struct Whereabouts {
+  std::vector<ResidualProfile> profiles;
+  std::vector<Region> regions;  // one an axis, the most significant first
+};
+
+// Significances are calibrated with `draws` of the model's own light.
+Whereabouts where_is_the_gap(const Model& model, const Survey& survey, int draws, std::uint64_t seed);
+
+}  // namespace floe

@@ -1,0 +1,92 @@
+#include "reco/ice_fit/ice_point.h"
+
+#include <algorithm>
+
+#include "reco/ice_fit/run_likelihood.h"
+
+namespace floe {
+
+namespace {
+
+constexpr double weight_step = 1e-3;  // in the parameter's scale, for weights, which are exact
+
+}  // namespace
+
+IcePoint::IcePoint(const Model& base, const std::vector<IceParameter>& parameters,
+                   std::vector<double> numbers, double wavelength)
+    : base_(base),
+      parameters_(parameters),
+      numbers_(std::move(numbers)),
+      model_(with_parameters(base, parameters, numbers_)),
+      map_(model_, wavelength, static_cast<int>(parameters.size())) {
+  for (std::size_t p = 0; p < parameters_.size(); ++p) {
+    const double step = (numbers_[p] > 0 ? -1 : 1) * weight_step * parameters_[p].scale;
+    const Model changed = moved(p, step);
+    if (map_.add(static_cast<int>(p), changed, step)) continue;
+    if (auto change = AcceptanceChange::between(model_, changed))
+      of_acceptance_.push_back({p, std::move(*change), step});
+    else
+      pairs_.push_back(p);
+  }
+}
+
+Model IcePoint::moved(std::size_t parameter, double step) const {
+  std::vector<double> moved = numbers_;
+  moved[parameter] += step;
+  return with_parameters(base_, parameters_, moved);
+}
+
+IcePoint::Light IcePoint::light(const RunRequest& request, const SimulatedRun& simulated, const RunBins& bins,
+                                double time_zero, const PairPlan& plan) const {
+  Light result;
+  result.light = light_with_slopes(model_, request, simulated, bins, map_, time_zero);
+  for (const OfAcceptance& slope : of_acceptance_) add_acceptance(simulated, bins, slope, result.light);
+  for (const std::size_t p : pairs_)
+    result.propagated += add_pair(request, bins, time_zero, plan, p, result.light);
+  return result;
+}
+
+void IcePoint::add_acceptance(const SimulatedRun& simulated, const RunBins& bins, const OfAcceptance& slope,
+                              RunLight& light) const {
+  const auto column = static_cast<Eigen::Index>(slope.parameter);
+  light.symmetric[slope.parameter] = 0;
+  for (LightFold& fold : light.folds) fold.dwell.col(column) = fold.counts;
+  for (const SimulatedHit& hit : simulated.hits) {
+    const int bin = bins.bin(hit.module, hit.time);
+    if (bin < 0) continue;
+    const double score = slope.change.ln_ratio(hit) / slope.step;
+    LightFold& fold = light.folds[hit.photon & 1];
+    fold.slopes(bin, column) += score;
+    fold.slope_squares(bin, column) += score * score;
+  }
+}
+
+std::uint64_t IcePoint::add_pair(const RunRequest& request, const RunBins& bins, double time_zero,
+                                 const PairPlan& plan, std::size_t parameter, RunLight& light) const {
+  const IceParameter& p = parameters_[parameter];
+  const auto column = static_cast<Eigen::Index>(parameter);
+  const double number = numbers_[parameter], reach = plan.reach * p.scale;
+  // It acts all over the ice: light dwells in it wherever it goes.
+  for (LightFold& fold : light.folds) fold.dwell.col(column) = fold.counts;
+  light.symmetric[parameter] = 0;
+  const double down = std::max(-reach, p.low - number), up = std::min(reach, p.high - number);
+  RunRequest less = request;
+  const double share = plan.light * (down == 0 || up == 0 ? plan.one_sided : 1);
+  less.photons *= share;
+  less.stream += plan.stream;
+  std::uint64_t propagated = 0;
+  for (const double step : {down, up}) {
+    SimulatedRun simulated = simulate_run(moved(parameter, step), less);
+    delay(simulated, time_zero);
+    propagated += simulated.propagated;
+    const RunLight counted = count_light(simulated, bins, less.photons, 0);
+    const double factor = (step == up ? 1 : -1) / ((up - down) * share);
+    for (int fold = 0; fold < 2; ++fold) {
+      light.folds[fold].slopes.col(column) += factor * counted.folds[fold].counts;
+      light.folds[fold].slope_squares.col(column) += factor * factor * counted.folds[fold].counts;
+    }
+  }
+  return propagated;
+}
+
+}  // namespace floe

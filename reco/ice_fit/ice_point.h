@@ -1,0 +1,65 @@
+// A model at a point in the space of a fit's parameters, and how the light of runs depends on them there.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "propagation/model.h"
+#include "reco/ice_fit/acceptance_slopes.h"
+#include "reco/ice_fit/ice_parameter.h"
+#include "reco/ice_fit/run_bins.h"
+#include "reco/ice_fit/run_light.h"
+#include "reco/ice_fit/score_map.h"
+
+namespace floe {
+
+// How slopes are found that weights cannot give: from two simulations with the same random numbers.
+struct PairPlan {
+  double reach = 0.5;  // from the point, each way, in the parameter's scale, as far as its limits allow
+  double light = 1;    // of each simulation, in units of the run's own
+  double one_sided = 1;  // times that where a limit leaves one side only: that is where effects set in
+  // 0: with the random numbers of the run itself; otherwise added to its stream, so that slopes are
+  // independent of the run's counts.
+  std::uint64_t stream = 0;
+};
+
+class IcePoint {
+ public:
+  // `wavelength`: of the runs [nm].
+  IcePoint(const Model& base, const std::vector<IceParameter>& parameters, std::vector<double> numbers,
+           double wavelength);
+
+  const Model& model() const { return model_; }
+  // The model with one of the numbers changed.
+  Model moved(std::size_t parameter, double step) const;
+
+  // Counts and slopes in all parameters of a simulated run of this model, whose hits were moved by
+  // `time_zero` [ns].
+  struct Light {
+    RunLight light;
+    std::uint64_t propagated = 0;  // photons, for the pairs
+  };
+  Light light(const RunRequest& request, const SimulatedRun& simulated, const RunBins& bins, double time_zero,
+              const PairPlan& plan = {}) const;
+
+ private:
+  struct OfAcceptance {
+    std::size_t parameter;
+    AcceptanceChange change;
+    double step;
+  };
+  void add_acceptance(const SimulatedRun& simulated, const RunBins& bins, const OfAcceptance& slope,
+                      RunLight& light) const;
+  std::uint64_t add_pair(const RunRequest& request, const RunBins& bins, double time_zero,
+                         const PairPlan& plan, std::size_t parameter, RunLight& light) const;
+
+  const Model& base_;
+  const std::vector<IceParameter>& parameters_;
+  std::vector<double> numbers_;
+  Model model_;
+  ScoreMap map_;
+  std::vector<OfAcceptance> of_acceptance_;
+  std::vector<std::size_t> pairs_;  // all other parameters that weights of paths cannot express
+};
+
+}  // namespace floe

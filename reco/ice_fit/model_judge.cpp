@@ -1,0 +1,65 @@
+#include "reco/ice_fit/model_judge.h"
+
+#include "reco/ice_fit/photon_draws.h"
+
+namespace floe {
+
+namespace {
+
+constexpr int draws = 30;  // for the expectation; its error is that of one measurement over sqrt(30)
+
+}  // namespace
+
+ModelJudge::ModelJudge(const Model& base, const FlasherData& data, const FirstLook& look,
+                       const RunSettings& settings, std::uint64_t stream)
+    : data_(data), settings_(settings), stream_(stream) {
+  for (std::size_t r = 0; r < data_.runs.size(); ++r) {
+    const RunData& run = data_.runs[r];
+    photons_.push_back(photons_wanted(run, look.hits_per_photon[r], settings_.light));
+    Scout scout = scout_run(base, request(r, 0, photons_[r]), 0);
+    const double brightness = run.charge / look.hits_per_photon[r];
+    time_zero_.push_back(measure_run(scout.simulated, scout.photons, run, bins_of(scout, run, brightness), {},
+                                     settings_.model_error)
+                             .nuisances.time_zero);
+    delay(scout.simulated, time_zero_[r]);
+    bins_.push_back(bins_of(scout, run, brightness));
+  }
+}
+
+RunRequest ModelJudge::request(std::size_t run, std::uint64_t purpose, double photons) const {
+  return {data_.runs[run].run,
+          photons,
+          settings_.oversize,
+          settings_.seed,
+          stream_ + purpose * data_.runs.size() + run,
+          settings_.threads};
+}
+
+RunMeasurement ModelJudge::measure(const Model& model, std::size_t run) const {
+  return measure_run(simulate_run(model, request(run, 1, photons_[run])), photons_[run], data_.runs[run],
+                     bins_[run], {0, time_zero_[run]}, settings_.model_error);
+}
+
+ModelJudge::Fit ModelJudge::judge(const Model& model, std::size_t run) const {
+  SimulatedRun simulated = simulate_run(model, request(run, 1, photons_[run]));
+  Fit fit;
+  fit.measured = measure_run(simulated, photons_[run], data_.runs[run], bins_[run], {0, time_zero_[run]},
+                             settings_.model_error);
+  delay(simulated, fit.measured.nuisances.time_zero);
+  const double factor = dispersion(simulated), brightness = fit.measured.nuisances.brightness;
+  const PhotonDraws pseudo(simulated, bins_[run], brightness / photons_[run],
+                           data_.runs[run].run.oversize > 1);
+  std::seed_seq sequence{settings_.seed, settings_.seed >> 32, stream_ + run};
+  std::mt19937_64 random(sequence);
+  for (int d = 0; d < draws; ++d) {
+    const FoldedCounts drawn = pseudo.draw(random);
+    const Eigen::VectorXd counts = (drawn.simulated[0] + drawn.simulated[1]) / factor;
+    fit.expected +=
+        measure_counts({drawn.data, counts, photons_[run] / factor}, brightness, settings_.model_error)
+            .neg_llh /
+        draws;
+  }
+  return fit;
+}
+
+}  // namespace floe

@@ -1,0 +1,40 @@
+// Compares models of the ice by the same flasher data, in the same bins, with the same random numbers.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "propagation/model.h"
+#include "reco/ice_fit/run_data.h"
+#include "reco/ice_fit/run_likelihood.h"
+#include "reco/ice_fit/run_plan.h"
+
+namespace floe {
+
+class ModelJudge {
+ public:
+  // Bins and light are those of `base`. `data`: screened, of which `look` was taken; `stream`: the first of
+  // three times as many as there are runs.
+  ModelJudge(const Model& base, const FlasherData& data, const FirstLook& look, const RunSettings& settings,
+             std::uint64_t stream);
+
+  // -ln L of a run at its best brightness and time zero.
+  RunMeasurement measure(const Model& model, std::size_t run) const;
+  // The same, and what it would be on average if the model were true.
+  struct Fit {
+    RunMeasurement measured;
+    double expected = 0;  // -ln L
+  };
+  Fit judge(const Model& model, std::size_t run) const;
+
+ private:
+  RunRequest request(std::size_t run, std::uint64_t purpose, double photons) const;
+
+  const FlasherData& data_;
+  RunSettings settings_;
+  std::uint64_t stream_;
+  std::vector<double> photons_, time_zero_;
+  std::vector<RunBins> bins_;
+};
+
+}  // namespace floe
