@@ -148,8 +148,8 @@ void run_diagnose(const DiagnoseCommand& given) {
   const ReportFacts facts{command.data, command.model.ice, command.command, FLOE_VERSION, command.run.seed};
   write_whole_file(folder.temporary() / "result.json", result);
   write_whole_file(folder.temporary() / "report.html", report_html(diagnosis, command.options, facts));
-  write_improved_ice(command.model, base, diagnosis.improved, changes_text(diagnosis, command, base),
-                     folder.temporary() / "improved-ice");
+  write_improved_ice(command.model, diagnosis.improved, diagnosis.beside_ice,
+                     changes_text(diagnosis, command, base), folder.temporary() / "improved-ice");
   json.write(result);
   json.commit();
   folder.commit();

@@ -23,13 +23,16 @@ void copy_base(const ModelRequest& request, const fs::path& folder) {
 
 }  // namespace
 
-void write_improved_ice(const ModelRequest& request, const Model&, const Model& improved,
+void write_improved_ice(const ModelRequest& request, const Model& improved, const EffectGroups& beside_ice,
                         const std::string& changes, const fs::path& folder) {
   copy_base(request, folder);
   std::error_code ignored;
   fs::create_directory(folder, ignored);
   write_ice_tables(improved.ice->tables(), folder);
   write_whole_file(folder / "CHANGES.txt", changes);
+  EffectGroups groups = read_effects_file(folder);  // of the base
+  groups.insert(groups.end(), beside_ice.begin(), beside_ice.end());
+  if (!groups.empty()) write_whole_file(folder / effects_file, effects_file_text(groups));
 }
 
 }  // namespace floe

@@ -4,13 +4,14 @@
 #include <filesystem>
 #include <string>
 
+#include "propagation/effects_file.h"
 #include "propagation/model.h"
 
 namespace floe {
 
-// What the field's ice directories have no file for goes to floe.toml, which floe reads and others ignore.
+// `beside_ice`: what the field's ice directories have no file for goes to floe.toml, which floe reads and others ignore.
 // Throws OutputError.
-void write_improved_ice(const ModelRequest& request, const Model& base, const Model& improved,
+void write_improved_ice(const ModelRequest& request, const Model& improved, const EffectGroups& beside_ice,
                         const std::string& changes, const std::filesystem::path& folder);
 
 }  // namespace floe

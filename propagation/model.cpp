@@ -7,6 +7,7 @@
 
 #include "data/base/error.h"
 #include "propagation/effects/switches.h"
+#include "propagation/effects_file.h"
 
 namespace floe {
 
@@ -118,6 +119,8 @@ Model load_model(const ModelRequest& request) {
   for (const auto& effect : request.without) expect_known_effect(effect);
   for (const auto& setting : request.with) find_effect(setting.effect);
   ModelParts parts = load_parts(request);
+  if (request.ice != builtin_ice)
+    for (const auto& group : read_effects_file(request.ice)) apply_effects(group, parts);
   for (const auto& effect : request.without) switch_off(parts, effect);
   apply_effects(request.with, parts);
   return freeze(std::move(parts));

@@ -314,6 +314,24 @@ class Diagnoser {
     for (const RunGap& run : result_.gaps) result_.gap_before += run.before, result_.gap_after += run.after;
     for (const NamedEffect& effect : result_.effects) result_.verdict.push_back(effect.suspect.effect);
     if (unexplained) result_.verdict.push_back("unexplained");
+    for (const NamedEffect& effect : result_.effects)
+      if (!is_of_ice(effect)) result_.beside_ice.push_back(settings_of(effect));
+  }
+  std::vector<EffectSetting> settings_of(const NamedEffect& effect) const {
+    std::vector<EffectSetting> settings;
+    for (const auto& [name, value] : effect.suspect.place)
+      if (name == "string" || name == "dom") settings.push_back({effect.suspect.effect, name, value});
+    for (std::size_t i = 0; i < effect.values.size(); ++i) {
+      const std::string& name = effect.parameters[i].name;
+      settings.push_back({effect.suspect.effect, name.substr(name.find('.') + 1), effect.values[i]});
+    }
+    return settings;
+  }
+  // Whether it changes the ice's tables, and nothing else.
+  bool is_of_ice(const NamedEffect& effect) const {
+    ModelParts parts = parts_of(base_);
+    apply_effects(settings_of(effect), parts);
+    return freeze(std::move(parts)).ice->hash() != base_.ice->hash();
   }
   Model fitted_without(int fold) {
     const std::vector<IceParameter> parameters = with({});

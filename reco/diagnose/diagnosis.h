@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "data/base/progress.h"
+#include "propagation/effects_file.h"
 #include "propagation/model.h"
 #include "reco/diagnose/score_test.h"
 #include "reco/diagnose/where.h"
@@ -65,6 +66,7 @@ struct Diagnosis {
   std::vector<std::string> left_out;  // of the data, a sentence each
   std::vector<std::string> remarks;   // effects that were given up again
   Model improved;
+  EffectGroups beside_ice;  // of the effects, those that no file of an ice directory can hold but floe.toml
   double seconds = 0;
 
   double closed() const { return gap_before != 0 ? 1 - gap_after / gap_before : 0; }
