@@ -37,6 +37,8 @@ Json effect_json(const NamedEffect& effect) {
     parameters[name.substr(name.find('.') + 1)] = {
         {"value", effect.values[i]}, {"error", effect.errors[i]}, {"unit", effect.parameters[i].unit}};
   }
+  if (effect.mean)
+    parameters[effect.mean->name] = {{"value", effect.mean->value}, {"error", effect.mean->error}, {"unit", ""}};
   for (const auto& [name, value] : effect.suspect.place)
     if (!parameters.contains(name)) parameters[name] = {{"value", value}, {"error", 0.0}, {"unit", ""}};
   return {{"name", effect.suspect.effect}, {"parameters", parameters}, {"significance", effect.significance}};

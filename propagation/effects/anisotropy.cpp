@@ -23,7 +23,8 @@ class AbsorptionAnisotropy final : public Effect {
 
   std::vector<EffectParameter> parameters(const ModelParts& model) const override {
     const auto& k = model.ice.configuration.absorption_anisotropy;
-    return {{"k1", "", "natural logarithm along the flow; k2 = kz = -k1/2", k ? k->k1 : 0, -1.5, 1.5}};
+    return {{"k1", "", "natural logarithm along the flow; k2 = kz = -k1/2", k ? k->k1 : 0, -1.5, 1.5, false,
+             0.4}};
   }
   void apply(std::span<const double> values, ModelParts& model) const override {
     const double k1 = values[0];

@@ -18,7 +18,7 @@ constexpr std::uint64_t look_stream = std::uint64_t{1} << 44, judge_stream = std
 constexpr double alike = 0.9;         // correlation of effects that the data cannot tell apart
 constexpr double leading_share = 0.35;  // of the best gain: suspects that are fitted, too
 constexpr std::size_t most_trials = 3;
-constexpr int rounds = 3, rounds_of_folds = 2;
+constexpr int rounds = 4, rounds_of_folds = 2;
 constexpr double still_there = 3;  // standard deviations, of effects when another one has come in
 
 void check_options(const DiagnosisOptions& options, std::size_t runs) {
@@ -133,6 +133,7 @@ class Diagnoser {
     IceFitOptions options;
     static_cast<RunSettings&>(options) = options_;
     options.most_rounds = most_rounds;
+    options.judged = false;  // the same for all rivals, below
     return fit_ice(base_, data, parameters, options, part());
   }
 
@@ -163,7 +164,7 @@ class Diagnoser {
       stage(from + length * done, from + length * (done + 0.2), "fitting " + text_of(score.best.suspect));
       Trial trial;
       trial.suspect = score.best.suspect;
-      trial.parameters = fit_parameters(score.best.suspect, score.best.amplitudes, base_for(score.best.suspect));
+      trial.parameters = fit_parameters(score.best.suspect, score.best.amplitudes, base_);
       if (is_in_the_model(score.best.suspect)) continue;
       try {
         fits.push_back(fit(data_, with(trial.parameters), rounds));
@@ -200,7 +201,6 @@ class Diagnoser {
       return e.suspect.effect == suspect.effect && (suspect.place.empty() || suspect.place.count("depth"));
     });
   }
-  const Model& base_for(const Suspect&) const { return base_; }
 
   void accept(DiagnosisStep& now, std::size_t best, const IceFit& fit, double gain) {
     const Trial& trial = now.trials[best];
@@ -220,6 +220,50 @@ class Diagnoser {
     take(fit);
     now.added = result_.effects.size() - 1;
     retest();
+    if (result_.effects.back().suspect.effect == "birefringence") refine_by_layers();
+  }
+
+  // Grains differ from layer to layer, and with them the strength of birefringence (arXiv:2107.08692).
+  void refine_by_layers() {
+    constexpr double beyond = 50;  // the outermost flashers [m]
+    constexpr int most_layers = 10;
+    const Span span = spans_.back();
+    DepthRange range{1e9, -1e9, std::min(most_layers, static_cast<int>(data_.runs.size()))};
+    for (const RunData& run : data_.runs) {
+      const double depth = flasher_depth(run, *base_.detector);
+      range.top = std::min(range.top, depth - beyond), range.bottom = std::max(range.bottom, depth + beyond);
+    }
+    if (range.groups < 2) return;
+    stage(from_, to_, "fitting birefringence layer by layer");
+    std::vector<IceParameter> layered = with({});
+    const double strength = numbers_[span.first];
+    layered.resize(span.first);
+    for (IceParameter& layer : layer_parameters(LayerFamily::birefringence, range)) {
+      layer.start = std::log(std::max(0.1, strength));
+      layered.push_back(std::move(layer));
+    }
+    try {
+      const IceFit fit = this->fit(data_, layered, rounds);
+      const double gain = neg_llh_of_all(current()) -
+                          neg_llh_of_all(with_parameters(base_, fit.parameters, fit.numbers));
+      if (gain < 0.5 * (range.groups - 1)) return;
+      spans_.back().count = layered.size() - span.first;
+      NamedEffect& effect = result_.effects.back();
+      effect.parameters.assign(layered.begin() + static_cast<std::ptrdiff_t>(span.first), layered.end());
+      take(fit);
+    } catch (const InputError&) {
+      // Some layer scatters too little for so strong crystals: one strength for all stays.
+    }
+  }
+  bool is_layered(const NamedEffect& effect) const { return !effect.parameters.front().family.empty(); }
+
+  void take_mean(const Span& span, const IceFit& fit, NamedEffect& effect) const {
+    const auto count = static_cast<Eigen::Index>(span.count), first = static_cast<Eigen::Index>(span.first);
+    Eigen::VectorXd share(count);
+    for (Eigen::Index i = 0; i < count; ++i)
+      share(i) = effect.values[static_cast<std::size_t>(i)] / static_cast<double>(count);
+    effect.mean = {"strength", share.sum(),
+                   std::sqrt(share.dot(fit.covariance.block(first, first, count, count) * share))};
   }
 
   // Whether a fit of it, if there was one, came close.
@@ -240,6 +284,7 @@ class Diagnoser {
         effect.values.push_back(fit.value(i));
         effect.errors.push_back(fit.error(i));
       }
+      if (is_layered(effect)) take_mean(spans_[e], fit, effect);
     }
   }
 
@@ -247,7 +292,7 @@ class Diagnoser {
   void retest() {
     for (std::size_t e = 0; e + 1 < result_.effects.size(); ++e) {
       const NamedEffect& effect = result_.effects[e];
-      if (effect.suspect.place.count("depth")) continue;
+      if (effect.suspect.place.count("depth") || is_layered(effect)) continue;
       double most = 0;
       for (std::size_t i = 0; i < effect.values.size(); ++i) {
         const IceParameter before = null_of(effect, i);
@@ -329,6 +374,7 @@ class Diagnoser {
   }
   // Whether it changes the ice's tables, and nothing else.
   bool is_of_ice(const NamedEffect& effect) const {
+    if (is_layered(effect)) return true;
     ModelParts parts = parts_of(base_);
     apply_effects(settings_of(effect), parts);
     return freeze(std::move(parts)).ice->hash() != base_.ice->hash();

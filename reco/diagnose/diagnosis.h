@@ -47,6 +47,12 @@ struct NamedEffect {
   Suspect suspect;
   std::vector<IceParameter> parameters;
   std::vector<double> values, errors;
+  // The mean over layers, where the effect was refined layer by layer; by the effect's own parameter's name.
+  struct Mean {
+    std::string name;
+    double value = 0, error = 0;
+  };
+  std::optional<Mean> mean;
   double significance = 0;         // standard deviations
   std::vector<std::string> group;  // effects that the data cannot tell from it, itself first
 };

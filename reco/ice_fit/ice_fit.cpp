@@ -66,7 +66,7 @@ class Fit {
     look_first();
     for (round_ = 1; round_ <= options_.most_rounds && !fit_.converged; ++round_) one_round();
     fit_.rounds = round_ - 1;
-    judge();
+    if (options_.judged) judge();
     return std::move(fit_);
   }
 

@@ -19,6 +19,7 @@ struct IceFitOptions : RunSettings {
   double smoothness = 0.5;  // prior: width of the difference between neighbouring layers, in the logarithm
   double amplitude = 1;     // prior: width of each parameter about its start, in the logarithm
   int most_rounds = 6;
+  bool judged = true;  // by fresh simulations at the end; without, IceFit::runs and neg_llh are missing
 };
 
 struct RunResult {
