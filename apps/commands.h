@@ -15,6 +15,7 @@ void add_compare(CLI::App& floe);
 void add_study(CLI::App& floe);
 void add_fit_ice(CLI::App& floe, const std::string& command_line);
 void add_diagnose(CLI::App& floe, const std::string& command_line);
+void add_blind_trials(CLI::App& floe);
 void add_ladder(CLI::App& floe);
 void add_scan(CLI::App& floe, const std::string& command_line);
 void add_figures(CLI::App& floe, const std::string& command_line);

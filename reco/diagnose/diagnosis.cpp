@@ -103,8 +103,9 @@ class Diagnoser {
     const Survey survey = survey_data(model, data_, look_, survey_plan, options_, part());
     DiagnosisStep now;
     goodness(survey, now);
-    now.scores = test_scores(survey, suspects_of(survey, plan), plan.parameters, options_.floor,
-                             options_.draws, options_.seed);
+    const std::vector<Suspect> suspects = suspects_of(survey, plan);
+    now.scores = ScoreTester(survey, suspects, plan.parameters, options_.draws, options_.seed)
+                     .test(measured_counts(survey), options_.floor);
     now.where = where_is_the_gap(model, survey, options_.draws, options_.seed);
     result_.steps.push_back(std::move(now));
     const DiagnosisStep& last = result_.steps.back();
@@ -153,7 +154,7 @@ class Diagnoser {
 
   // Fits the leading suspects and adds the best, when it is better than nothing.
   bool add_effect(DiagnosisStep& now, int step) {
-    if (now.scores.p_value >= options_.alpha / 2) return false;
+    if (now.scores.effects.empty() || now.scores.p_value >= options_.alpha / 2) return false;
     const auto& effects = now.scores.effects;
     std::vector<IceFit> fits;
     const double from = begin(step), length = begin(step + 1) - from;
@@ -170,7 +171,7 @@ class Diagnoser {
         fits.push_back(fit(data_, with(trial.parameters), rounds));
         trial.neg_llh =
             neg_llh_of_all(with_parameters(base_, fits.back().parameters, fits.back().numbers));
-      } catch (const InputError&) {
+      } catch (const Error&) {
         // No physical ice on its way: it is not what is missing.
         if (fits.size() > now.trials.size()) fits.pop_back();
         continue;
@@ -251,7 +252,7 @@ class Diagnoser {
       NamedEffect& effect = result_.effects.back();
       effect.parameters.assign(layered.begin() + static_cast<std::ptrdiff_t>(span.first), layered.end());
       take(fit);
-    } catch (const InputError&) {
+    } catch (const Error&) {
       // Some layer scatters too little for so strong crystals: one strength for all stays.
     }
   }

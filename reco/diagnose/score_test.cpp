@@ -4,7 +4,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 namespace floe {
@@ -54,32 +53,10 @@ MatrixXd inverse(const MatrixXd& symmetric, const MatrixXd& directions) {
   return directions * inside.ldlt().solve(directions.transpose());
 }
 
-// A suspect with what its test needs, worked out once.
-struct Tested {
-  const Suspect* suspect;
-  MatrixXd information, inverse_information, inverse_noise;
-  VectorXd low, high;  // limits of the amplitudes
-  double light;        // counts of all bins
-
-  VectorXd amplitudes(const VectorXd& gap) const { return inverse_information * gap; }
-  bool allowed(const VectorXd& at) const {
-    return ((at - low).array() >= 0).all() && ((high - at).array() >= 0).all();
-  }
-  double size(const VectorXd& at) const {
-    return std::sqrt(std::max(0.0, at.dot(information * at)) / light);
-  }
-  double gain(const VectorXd& columns, double floor) const {
-    const VectorXd gap = combined(*suspect, columns);
-    const VectorXd at = amplitudes(gap);
-    if (!allowed(at) || size(at) < floor) return 0;
-    return gap.dot(inverse_noise * gap) / 2;
-  }
-};
-
 // Amplitudes of one-sided parameters must not leave their limits: there is no ice with less than no
 // birefringence.
 void limit(const Suspect& suspect, const std::vector<IceParameter>& parameters, const Survey& survey,
-           Tested& tested) {
+           TestedSuspect& tested) {
   const auto size = static_cast<Eigen::Index>(suspect.amplitudes.size());
   constexpr double slack = 1e-9;
   tested.low = VectorXd::Constant(size, -suspect.largest);
@@ -104,13 +81,13 @@ double ln_probability(double gain, double ln_number) {
   return std::min(0.0, ln_number - gain);
 }
 
-std::vector<Tested> prepare(const Survey& survey, const std::vector<Suspect>& suspects,
+std::vector<TestedSuspect> prepare(const Survey& survey, const std::vector<Suspect>& suspects,
                             const std::vector<IceParameter>& parameters) {
   double light = 0;
   for (const SurveyRun& run : survey.runs) light += (run.trust * run.expected).sum();
-  std::vector<Tested> tested;
+  std::vector<TestedSuspect> tested;
   for (const Suspect& suspect : suspects) {
-    Tested t;
+    TestedSuspect t;
     t.suspect = &suspect;
     t.light = light;
     t.information = combined(suspect, suspect, survey.information);
@@ -125,7 +102,7 @@ std::vector<Tested> prepare(const Survey& survey, const std::vector<Suspect>& su
 }
 
 // Correlation of the change of light that `a` makes with the most alike that `b` can make.
-double likeness(const Score& a, const Tested& of_a, const Tested& b, const MatrixXd& information) {
+double likeness(const Score& a, const TestedSuspect& of_a, const TestedSuspect& b, const MatrixXd& information) {
   const MatrixXd cross = combined(*b.suspect, *of_a.suspect, information);
   const VectorXd along = cross * a.amplitudes;
   const double own = a.amplitudes.dot(of_a.information * a.amplitudes);
@@ -135,56 +112,75 @@ double likeness(const Score& a, const Tested& of_a, const Tested& b, const Matri
 
 }  // namespace
 
-ScoreTest test_scores(const Survey& survey, const std::vector<Suspect>& suspects,
-                      const std::vector<IceParameter>& parameters, double floor, int draws,
-                      std::uint64_t seed) {
-  const std::vector<Tested> tested = prepare(survey, suspects, parameters);
-  // By effect: the largest gain of any of its suspects, in the data and in each draw.
-  const VectorXd gap = gap_of(survey, measured_counts(survey));
-  std::map<std::string, const Tested*> best;
-  std::map<std::string, double> gain;
-  for (const Tested& t : tested) {
-    const double of_data = t.gain(gap, floor);
-    const std::string& effect = t.suspect->effect;
-    if (!best.count(effect) || of_data > gain[effect]) best[effect] = &t, gain[effect] = of_data;
-  }
-  std::map<std::string, std::vector<double>> drawn;
-  for (auto& [effect, t] : best) drawn[effect].assign(static_cast<std::size_t>(draws), 0);
+VectorXd TestedSuspect::amplitudes(const VectorXd& columns) const {
+  return inverse_information * combined(*suspect, columns);
+}
+double TestedSuspect::size(const VectorXd& at) const {
+  return std::sqrt(std::max(0.0, at.dot(information * at)) / light);
+}
+double TestedSuspect::gain(const VectorXd& columns, double floor) const {
+  const VectorXd gap = combined(*suspect, columns), at = inverse_information * gap;
+  const bool allowed = ((at - low).array() >= 0).all() && ((high - at).array() >= 0).all();
+  if (!allowed || size(at) < floor) return 0;
+  return gap.dot(inverse_noise * gap) / 2;
+}
+double TestedSuspect::expected_gain(const VectorXd& at) const {
+  const VectorXd gap = information * at;
+  return gap.dot(inverse_noise * gap) / 2;
+}
+
+ScoreTester::ScoreTester(const Survey& survey, const std::vector<Suspect>& suspects,
+                         const std::vector<IceParameter>& parameters, int draws, std::uint64_t seed)
+    : survey_(survey), tested_(prepare(survey, suspects, parameters)) {
+  const auto number = static_cast<std::size_t>(draws);
+  for (const TestedSuspect& t : tested_) drawn_[t.suspect->effect].assign(number, 0);
 #pragma omp parallel for schedule(dynamic)
-  for (int d = 0; d < draws; ++d) {
-    const VectorXd of_draw = gap_of(survey, drawn_counts(survey, seed, static_cast<std::uint64_t>(d)));
-    for (const Tested& t : tested) {
-      double& most = drawn.at(t.suspect->effect)[static_cast<std::size_t>(d)];
-      most = std::max(most, t.gain(of_draw, 0));
+  for (std::size_t d = 0; d < number; ++d) {
+    const VectorXd gap = gap_of(survey_, drawn_counts(survey_, seed, d));
+    for (const TestedSuspect& t : tested_) {
+      double& most = drawn_.at(t.suspect->effect)[d];
+      most = std::max(most, t.gain(gap, 0));
     }
   }
+  // The least of all effects' probabilities, in each draw.
+  std::vector<double> least(number, 0);
+  for (const auto& [effect, gains] : drawn_) {
+    ln_number_[effect] = ln_number(gains);
+    for (std::size_t d = 0; d < number; ++d) least[d] = std::max(least[d], gains[d] - ln_number_[effect]);
+  }
+  ln_number_of_all_ = ln_number(least);
+}
 
+ScoreTest ScoreTester::test(const SurveyCounts& counts, double floor) const {
+  const VectorXd gap = gap_of(survey_, counts);
+  // By effect, the suspect that gains the most.
+  std::map<std::string, const TestedSuspect*> best;
+  std::map<std::string, double> gain;
+  for (const TestedSuspect& t : tested_) {
+    const double gained = t.gain(gap, floor);
+    const std::string& effect = t.suspect->effect;
+    if (!best.count(effect) || gained > gain[effect]) best[effect] = &t, gain[effect] = gained;
+  }
   ScoreTest result;
-  std::map<std::string, double> number;
   for (const auto& [effect, t] : best) {
-    number[effect] = ln_number(drawn[effect]);
     EffectScore score;
-    score.best = {*t->suspect, gain[effect], t->amplitudes(combined(*t->suspect, gap)), 0};
+    score.best = {*t->suspect, gain[effect], t->amplitudes(gap), 0};
     score.best.size = t->size(score.best.amplitudes);
-    score.ln_p = ln_probability(gain[effect], number[effect]);
+    score.ln_p = ln_probability(gain[effect], ln_number_.at(effect));
     result.effects.push_back(std::move(score));
   }
+  if (result.effects.empty()) return result;
   std::stable_sort(result.effects.begin(), result.effects.end(),
                    [](const EffectScore& a, const EffectScore& b) { return a.ln_p < b.ln_p; });
-  // The least of all effects' probabilities, in each draw.
-  std::vector<double> least(static_cast<std::size_t>(draws), 0);
-  for (const auto& [effect, gains] : drawn)
-    for (std::size_t d = 0; d < least.size(); ++d)
-      least[d] = std::max(least[d], gains[d] - number[effect]);
-  result.p_value = std::exp(ln_probability(-result.effects.front().ln_p, ln_number(least)));
   const EffectScore& first = result.effects.front();
-  const Tested& of_first = *best.at(first.best.suspect.effect);
+  result.p_value = std::exp(ln_probability(-first.ln_p, ln_number_of_all_));
+  const TestedSuspect& of_first = *best.at(first.best.suspect.effect);
   for (EffectScore& effect : result.effects) {
     // Of all its places, the one that imitates best.
-    for (const Tested& t : tested)
+    for (const TestedSuspect& t : tested_)
       if (t.suspect->effect == effect.best.suspect.effect)
         effect.likeness =
-            std::max(effect.likeness, likeness(first.best, of_first, t, survey.information));
+            std::max(effect.likeness, likeness(first.best, of_first, t, survey_.information));
   }
   return result;
 }

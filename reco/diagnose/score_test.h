@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -34,10 +35,41 @@ struct ScoreTest {
   double p_value = 1;                // of the first, for everything tried
 };
 
-// `draws`: of the calibration. Effects that change light by less than `floor` are not told from small
-// differences between programs: their gain is 0.
-ScoreTest test_scores(const Survey& survey, const std::vector<Suspect>& suspects,
-                      const std::vector<IceParameter>& parameters, double floor, int draws, std::uint64_t seed);
+// A suspect with what its test needs.
+struct TestedSuspect {
+  const Suspect* suspect;
+  Eigen::MatrixXd information, inverse_information, inverse_noise;
+  Eigen::VectorXd low, high;  // limits of the amplitudes
+  double light;               // counts of all bins
+
+  // By the gaps of all columns (gap_of).
+  Eigen::VectorXd amplitudes(const Eigen::VectorXd& columns) const;
+  double size(const Eigen::VectorXd& amplitudes) const;
+  double gain(const Eigen::VectorXd& columns, double floor) const;
+  // Expected of light that has these amplitudes.
+  double expected_gain(const Eigen::VectorXd& amplitudes) const;
+};
+
+// Worked out once for a survey, it judges any counts.
+class ScoreTester {
+ public:
+  // Keeps references to survey and suspects. `draws`: of the calibration.
+  ScoreTester(const Survey& survey, const std::vector<Suspect>& suspects,
+              const std::vector<IceParameter>& parameters, int draws, std::uint64_t seed);
+
+  // Effects that change light by less than `floor` are not told from small differences between programs:
+  // their gain is 0.
+  ScoreTest test(const SurveyCounts& counts, double floor) const;
+  const std::vector<TestedSuspect>& suspects() const { return tested_; }
+
+ private:
+  const Survey& survey_;
+  std::vector<TestedSuspect> tested_;
+  // By effect, the largest gain of any of its suspects in each draw, and what follows from them.
+  std::map<std::string, std::vector<double>> drawn_;
+  std::map<std::string, double> ln_number_;
+  double ln_number_of_all_ = 0;
+};
 
 // Logarithm of the probability of at least this gain, given what draws gained: beyond most of them it falls
 // as exp(-gain), as that of chi-square does.

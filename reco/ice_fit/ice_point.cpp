@@ -20,7 +20,9 @@ IcePoint::IcePoint(const Model& base, const std::vector<IceParameter>& parameter
       model_(with_parameters(base, parameters, numbers_)),
       map_(model_, wavelength, static_cast<int>(parameters.size())) {
   for (std::size_t p = 0; p < parameters_.size(); ++p) {
-    const double step = (numbers_[p] > 0 ? -1 : 1) * weight_step * parameters_[p].scale;
+    const double size = weight_step * parameters_[p].scale;
+    const bool downwards = numbers_[p] > 0 && numbers_[p] - size >= parameters_[p].low;
+    const double step = downwards ? -size : size;
     const Model changed = moved(p, step);
     if (map_.add(static_cast<int>(p), changed, step)) continue;
     if (auto change = AcceptanceChange::between(model_, changed))

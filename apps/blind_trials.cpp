@@ -1,0 +1,143 @@
+// floe blind-trials: would the diagnosis have found it?
+#include <fmt/format.h>
+
+#include <map>
+#include <memory>
+#include <set>
+
+#include "apps/commands.h"
+#include "apps/common_options.h"
+#include "apps/flasher_runs_file.h"
+#include "apps/model_json.h"
+#include "apps/option_values.h"
+#include "apps/planned_output.h"
+#include "apps/progress_bar.h"
+#include "apps/text_table.h"
+#include "reco/diagnose/blind_trials.h"
+
+namespace floe {
+
+namespace {
+
+struct BlindTrialsCommand {
+  std::string runs;
+  ModelRequest model;
+  BlindTrialOptions options;
+  SimulationSettings run;
+  OutputOptions output;
+};
+
+struct Tally {
+  int trials = 0, right = 0, silent = 0;
+  std::map<std::string, int> wrong;  // what was named instead
+};
+
+std::map<std::string, Tally> tallies_of(const BlindTrials& trials) {
+  std::map<std::string, Tally> tallies;
+  for (const BlindTrial& trial : trials.trials) {
+    Tally& tally = tallies[trial.hidden.effect.empty() ? "nothing" : trial.hidden.effect];
+    ++tally.trials;
+    if (trial.right())
+      ++tally.right;
+    else if (trial.named.empty())
+      ++tally.silent;
+    else
+      ++tally.wrong[trial.named];
+  }
+  return tallies;
+}
+
+std::string confusion(const BlindTrials& trials) {
+  TextTable table({"hidden", "trials", "right", "silent", "named instead"});
+  int right = 0, hidden = 0;
+  for (const auto& [effect, tally] : tallies_of(trials)) {
+    std::string wrong;
+    for (const auto& [name, count] : tally.wrong)
+      wrong += fmt::format("{}{}{}", wrong.empty() ? "" : ", ", name, count > 1 ? fmt::format(" {}x", count) : "");
+    table.add({effect, fmt::format("{}", tally.trials), fmt::format("{}", tally.right),
+               fmt::format("{}", tally.silent), wrong});
+    if (effect == "nothing") continue;
+    right += tally.right, hidden += tally.trials;
+  }
+  std::string text = table.str();
+  if (hidden > 0) text += fmt::format("Right name or group: {} of {} ({:.0f}%).\n", right, hidden, 100.0 * right / hidden);
+  for (const auto& [effect, why] : trials.not_tried) text += fmt::format("{}: {}\n", effect, why);
+  return text;
+}
+
+Json trial_json(const BlindTrial& trial) {
+  Json values = Json::object();
+  for (const auto& [name, value] : trial.hidden.values) values[name] = value;
+  return {{"hidden", trial.hidden.effect},
+          {"hidden_text", trial.hidden.text},
+          {"hidden_values", values},
+          {"expected_significance", trial.hidden.significance},
+          {"p_value", trial.p_value},
+          {"named", trial.named},
+          {"named_text", trial.named_text},
+          {"group", trial.group},
+          {"significance", trial.significance},
+          {"right", trial.right()}};
+}
+
+void run_trials(const BlindTrialsCommand& command) {
+  BlindTrialOptions options = command.options;
+  options.seed = command.run.seed;
+  options.threads = command.run.threads;
+  options.oversize = command.run.oversize;
+  PlannedOutput json(command.output.json);
+  const Model base = load_model(command.model);
+  std::vector<FlasherRun> runs;
+  for (const RunToSimulate& run : read_flasher_runs(command.runs)) runs.push_back(run.run);
+  BlindTrials trials;
+  {
+    ProgressBar bar(command.output.quiet);
+    trials = run_blind_trials(base, runs, options, bar.callback());
+  }
+  Json result = {{"version", FLOE_VERSION}, {"base", to_json(command.model)}, {"base_model", to_json(base)},
+                 {"runs", command.runs},    {"seed", options.seed},           {"alpha", options.alpha},
+                 {"seconds", trials.seconds}, {"trials", Json::array()}};
+  for (const BlindTrial& trial : trials.trials) result["trials"].push_back(trial_json(trial));
+  json.write(json_text(result));
+  json.commit();
+  if (!command.output.quiet) fmt::print("{}{:.0f} s\n", confusion(trials), trials.seconds);
+}
+
+}  // namespace
+
+void add_blind_trials(CLI::App& floe) {
+  CLI::App& app = *floe.add_subcommand(
+      "blind-trials", "Hide effects at random in simulated light and see whether the diagnosis names them");
+  const auto command = std::make_shared<BlindTrialsCommand>();
+  command->options.light = {2, 1e3, 2e11};
+  command->run.oversize = command->options.oversize;
+  app.add_option("runs", command->runs, "Flasher runs to simulate, as for floe simulate --flashers")
+      ->type_name("RUNS.toml")
+      ->required();
+  add_model_options(app, command->model);
+  add_integer(
+      app, "--trials", 0, 1000, "Trials of each effect",
+      [command = command.get()](std::int64_t number) { command->options.trials = static_cast<int>(number); })
+      ->default_str("3");
+  add_integer(
+      app, "--nothing", 0, 10000, "Trials with nothing missing",
+      [command = command.get()](std::int64_t number) { command->options.nothing = static_cast<int>(number); })
+      ->default_str("20");
+  add_number(app, "--least", "SIGMA", {0.1, 1000}, "Expected significance of what is hidden, at least",
+             command->options.least);
+  add_number(app, "--most", "SIGMA", {0.1, 1000}, "Expected significance of what is hidden, at most",
+             command->options.most);
+  add_number(app, "--alpha", "P", {1e-6, 0.5}, "Probability of naming anything when nothing is missing",
+             command->options.alpha);
+  add_number(app, "--light", "RATIO", {0.1, 1000}, "Simulated light, in units of the data's",
+             command->options.light.light);
+  add_simulation_options(app, command->run);
+  add_output_options(app, command->output);
+  app.footer(
+      "Examples:\n"
+      "  floe blind-trials runs.toml --trials 1 --nothing 5\n"
+      "  floe blind-trials runs.toml --ice my-ice --least 3 --most 8 --json trials.json");
+  app.callback([command] { run_trials(*command); });
+}
+
+}  // namespace floe

@@ -1,0 +1,54 @@
+// Blind trials of the diagnosis, in a fast form: an effect is drawn at random in kind, place and strength, light
+// is simulated with it, and the score test is asked what is missing. All trials share one survey of the base.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "data/base/progress.h"
+#include "data/flasher_run.h"
+#include "propagation/model.h"
+#include "reco/diagnose/suspects.h"
+#include "reco/ice_fit/run_plan.h"
+
+namespace floe {
+
+struct BlindTrialOptions : RunSettings {
+  int trials = 3;    // of each effect
+  int nothing = 20;  // trials with nothing missing
+  double least = 5, most = 12;  // expected significance of what is hidden, in standard deviations
+  double alpha = 0.01, floor = 0.005;
+  int draws = 300;
+};
+
+// What a trial hides; nothing when `effect` is empty.
+struct HiddenEffect {
+  std::string effect, text;
+  std::vector<std::pair<std::string, double>> values;  // names of parameters
+  double significance = 0;                             // expected
+};
+
+struct BlindTrial {
+  HiddenEffect hidden;
+  double p_value = 1;
+  std::string named, named_text;   // the first in the ranking; empty when nothing was named
+  std::vector<std::string> group;  // that the data cannot tell from it, itself first
+  double significance = 0;         // of what was named
+
+  bool right() const;
+};
+
+struct BlindTrials {
+  std::vector<BlindTrial> trials;
+  std::map<std::string, std::string> not_tried;  // effects that no light of these runs shows, and why
+  double seconds = 0;
+};
+
+// `runs`: with photons and oversize, as flashers are simulated. Throws UsageError for options out of range.
+BlindTrials run_blind_trials(const Model& base, const std::vector<FlasherRun>& runs,
+                             const BlindTrialOptions& options, const Progress& progress = {});
+
+}  // namespace floe

@@ -1,0 +1,81 @@
+// floe diagnose on the command line: it names what was hidden, and nothing where nothing was.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/app/floe_runner.h"
+#include "tests/unit/data/temporary_folder.h"
+
+namespace floe::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class Diagnose : public ::testing::Test {
+ protected:
+  Outcome floe(const std::string& arguments) const { return run_floe(folder_.path(), arguments); }
+  std::string text_of(const std::string& file) const { return bytes_of(folder_.path() / file); }
+  // Two small runs in the built-in ice, with the options of floe simulate.
+  void simulate(const std::string& options) const {
+    write_bytes(folder_.path() / "runs.toml",
+                "[defaults]\nphotons = 4e8\n[[run]]\nmodule = [36, 20]\n[[run]]\nmodule = [45, 40]\n");
+    const Outcome outcome =
+        floe("simulate --flashers runs.toml --oversize 16 --seed 5 --quiet -o runs.h5 " + options);
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+  }
+  Json diagnosis() const {
+    const Outcome outcome = floe("diagnose runs.h5 --least-hits 1000 --folds 2 -o found --json copy.json");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(text_of("found/result.json"), text_of("copy.json"));
+    return Json::parse(text_of("copy.json"));
+  }
+  std::string hash_of(const std::string& ice) const {
+    floe("info --detector ic86 --quiet --json info.json --ice " + ice);
+    return Json::parse(text_of("info.json"))["ice"]["hash"];
+  }
+  TemporaryFolder folder_;
+};
+
+// The built-in ice has k1 = 0.6: what it has too much of is as wrong as what it lacks.
+TEST_F(Diagnose, NamesWhatWasHidden) {
+  simulate("--with absorption-anisotropy.k1=0");
+  const Json found = diagnosis();
+  ASSERT_FALSE(found["verdict"].empty());
+  EXPECT_EQ(found["verdict"][0], "absorption-anisotropy") << found["steps"][0]["scores"].dump(1);
+  EXPECT_EQ(found["groups"]["absorption-anisotropy"][0], "absorption-anisotropy");
+  const Json& k1 = found["effects"][0]["parameters"]["k1"];
+  const double value = k1["value"], error = k1["error"];
+  EXPECT_GT(error, 0.01);
+  EXPECT_LT(error, 0.15);
+  EXPECT_NEAR(value, 0, 4 * error);
+  EXPECT_LT(found["p_value"].get<double>(), 1e-4);
+  EXPECT_GT(found["gap_before"].get<double>(), 10);
+  EXPECT_GT(found["closed"].get<double>(), 0.5);
+  EXPECT_EQ(found["gaps"].size(), 2u);
+
+  // The light goes too far along the flow, or not far enough across it: of its neighbourhood, most.
+  EXPECT_FALSE(found["where"].empty());
+  EXPECT_NE(text_of("found/report.html").find("Missing: absorption-anisotropy"), std::string::npos);
+  EXPECT_NE(hash_of("found/improved-ice"), hash_of("south-pole"));
+  EXPECT_EQ(hash_of("found/improved-ice"), found["improved_model"]["ice"]["hash"]);
+}
+
+TEST_F(Diagnose, IsSilentWhereNothingIsMissing) {
+  simulate("");
+  const Json found = diagnosis();
+  EXPECT_TRUE(found["verdict"].empty()) << found["verdict"].dump() << found["steps"][0]["scores"].dump(1);
+  EXPECT_TRUE(found["effects"].empty());
+  EXPECT_GT(found["p_value"].get<double>(), 0.01);
+  EXPECT_EQ(found["gap_before"], found["gap_after"]);
+  EXPECT_EQ(hash_of("found/improved-ice"), found["base_model"]["ice"]["hash"]);
+  EXPECT_NE(text_of("found/report.html").find("Nothing is missing"), std::string::npos);
+}
+
+TEST_F(Diagnose, SaysWhatIsWrongWithWhatItIsGiven) {
+  expect_error(floe("diagnose none.h5 -o found"), 3, "none.h5");
+  EXPECT_EQ(floe("diagnose runs.h5 -o found --alpha 2").code, 2);
+  EXPECT_TRUE(files_in(folder_.path()).empty());
+}
+
+}  // namespace
+}  // namespace floe::test

@@ -1,0 +1,85 @@
+// Suspects and the probabilities that they are judged by.
+#include "reco/diagnose/suspects.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reco/diagnose/score_test.h"
+
+namespace floe::test {
+namespace {
+
+TEST(Probabilities, AreStandardDeviationsOfAGaussian) {
+  EXPECT_EQ(sigmas_of(0), 0);
+  EXPECT_NEAR(sigmas_of(std::log(0.31731)), 1, 1e-4);
+  EXPECT_NEAR(sigmas_of(std::log(0.0026998)), 3, 1e-4);
+  EXPECT_NEAR(sigmas_of(std::log(5.7330e-7)), 5, 1e-4);
+  // Where erfc has no number any more: p = 2 phi(s)/s (1 - 1/s^2 ...).
+  const double s = 50;
+  EXPECT_NEAR(sigmas_of(-s * s / 2 + std::log(2 / std::sqrt(2 * M_PI) / s)), s, 0.01);
+}
+
+// Of exponential gains every probability is known.
+TEST(Probabilities, BeyondTheDrawsFallExponentially) {
+  std::vector<double> drawn;
+  for (int i = 0; i < 1000; ++i) drawn.push_back(-std::log((i + 0.5) / 1000));
+  EXPECT_NEAR(ln_tail_probability(20, drawn), -20, 0.1);
+  EXPECT_NEAR(ln_tail_probability(5, drawn), -5, 0.1);
+  EXPECT_EQ(ln_tail_probability(0, drawn), 0);
+}
+
+class Suspects : public ::testing::Test {
+ protected:
+  const Model model_ = load_model({});
+  const SuspectPlan plan_ = plan_suspects(model_, 1700, 1900);
+
+  bool planned(const std::string& name) const {
+    return std::any_of(plan_.parameters.begin(), plan_.parameters.end(),
+                       [&](const IceParameter& p) { return p.name == name; });
+  }
+};
+
+TEST_F(Suspects, AreTheEffectsThatTheDataCanTell) {
+  for (const char* name : {"birefringence.strength", "absorption-anisotropy.k1", "flow-azimuth.azimuth",
+                           "tilt.slope", "scattering-function.g", "hole-ice.radius", "flasher-profile.width"})
+    EXPECT_TRUE(planned(name)) << name;
+  // Taken up by each run's brightness and time zero, or judged place by place.
+  for (const char* name : {"flasher-brightness.factor", "overall-efficiency.factor", "time-offset.time",
+                           "absorption-layer.factor", "string-efficiency.factor"})
+    EXPECT_FALSE(planned(name)) << name;
+  // Where there is no hole ice, its scattering length changes nothing.
+  EXPECT_FALSE(planned("hole-ice.scattering"));
+}
+
+TEST_F(Suspects, BandsLieWithinTheDepthsThatFlashersReach) {
+  const BandGrid& bands = plan_.bands;
+  EXPECT_GE(bands.top, 1500);
+  EXPECT_LE(bands.top + bands.groups * bands.step, 2100);
+  EXPECT_EQ(plan_.parameters.size(), static_cast<std::size_t>(plan_.first_layer + 2 * bands.groups));
+  EXPECT_EQ(plan_.parameters[static_cast<std::size_t>(plan_.first_layer)].family, "absorption");
+}
+
+TEST_F(Suspects, BecomeParametersOfAFit) {
+  const Suspect string{"string-efficiency", {{"string", 36}}, {{{0, 1.0}}}};
+  const auto factor = fit_parameters(string, Eigen::VectorXd::Constant(1, -0.2), model_);
+  ASSERT_EQ(factor.size(), 1u);
+  EXPECT_NEAR(factor[0].start, 0.8, 1e-12);
+  const Model dimmer = with_parameters(model_, factor, {0.8});
+  for (std::size_t i = 0; i < model_.detector->size(); ++i) {
+    const Module &was = model_.detector->modules()[i], &is = dimmer.detector->modules()[i];
+    EXPECT_NEAR(is.relative_efficiency, was.relative_efficiency * (was.id.string == 36 ? 0.8 : 1), 1e-12);
+  }
+  EXPECT_EQ(text_of(string), "string-efficiency of string 36");
+
+  const Suspect band{"absorption-layer", {{"depth", 1780}, {"width", 40}}, {{{0, 1.0}}}};
+  const auto of_band = fit_parameters(band, Eigen::VectorXd::Constant(1, std::log(1.5)), model_);
+  ASSERT_EQ(of_band.size(), 3u);
+  EXPECT_EQ(of_band[0].start, 1780);
+  EXPECT_NEAR(of_band[2].start, 1.5, 1e-12);
+  EXPECT_EQ(text_of(band), "absorption-layer at 1760-1800 m");
+}
+
+}  // namespace
+}  // namespace floe::test
