@@ -53,14 +53,16 @@ std::string confusion(const BlindTrials& trials) {
   for (const auto& [effect, tally] : tallies_of(trials)) {
     std::string wrong;
     for (const auto& [name, count] : tally.wrong)
-      wrong += fmt::format("{}{}{}", wrong.empty() ? "" : ", ", name, count > 1 ? fmt::format(" {}x", count) : "");
+      wrong +=
+          fmt::format("{}{}{}", wrong.empty() ? "" : ", ", name, count > 1 ? fmt::format(" {}x", count) : "");
     table.add({effect, fmt::format("{}", tally.trials), fmt::format("{}", tally.right),
                fmt::format("{}", tally.silent), wrong});
     if (effect == "nothing") continue;
     right += tally.right, hidden += tally.trials;
   }
   std::string text = table.str();
-  if (hidden > 0) text += fmt::format("Right name or group: {} of {} ({:.0f}%).\n", right, hidden, 100.0 * right / hidden);
+  if (hidden > 0)
+    text += fmt::format("Right name or group: {} of {} ({:.0f}%).\n", right, hidden, 100.0 * right / hidden);
   for (const auto& [effect, why] : trials.not_tried) text += fmt::format("{}: {}\n", effect, why);
   return text;
 }
@@ -94,8 +96,8 @@ void run_trials(const BlindTrialsCommand& command) {
     ProgressBar bar(command.output.quiet);
     trials = run_blind_trials(base, runs, options, bar.callback());
   }
-  Json result = {{"version", FLOE_VERSION}, {"base", to_json(command.model)}, {"base_model", to_json(base)},
-                 {"runs", command.runs},    {"seed", options.seed},           {"alpha", options.alpha},
+  Json result = {{"version", FLOE_VERSION},   {"base", to_json(command.model)}, {"base_model", to_json(base)},
+                 {"runs", command.runs},      {"seed", options.seed},           {"alpha", options.alpha},
                  {"seconds", trials.seconds}, {"trials", Json::array()}};
   for (const BlindTrial& trial : trials.trials) result["trials"].push_back(trial_json(trial));
   json.write(json_text(result));

@@ -38,24 +38,28 @@ Json effect_json(const NamedEffect& effect) {
         {"value", effect.values[i]}, {"error", effect.errors[i]}, {"unit", effect.parameters[i].unit}};
   }
   if (effect.mean)
-    parameters[effect.mean->name] = {{"value", effect.mean->value}, {"error", effect.mean->error}, {"unit", ""}};
+    parameters[effect.mean->name] = {
+        {"value", effect.mean->value}, {"error", effect.mean->error}, {"unit", ""}};
   for (const auto& [name, value] : effect.suspect.place)
     if (!parameters.contains(name)) parameters[name] = {{"value", value}, {"error", 0.0}, {"unit", ""}};
   return {{"name", effect.suspect.effect}, {"parameters", parameters}, {"significance", effect.significance}};
 }
 
 Json region_json(const Region& region) {
-  return {{"axis", region.axis},         {"from", region.from},
-          {"to", region.to},             {"sign", region.sign},
-          {"relative", region.relative}, {"significance", region.significance},
+  return {{"axis", region.axis},        {"from", region.from},         {"to", region.to},
+          {"sign", region.sign},        {"relative", region.relative}, {"significance", region.significance},
           {"sentence", region.sentence}};
 }
 
 Json step_json(const DiagnosisStep& step) {
-  Json json = {{"neg_llh", step.neg_llh},       {"expected_neg_llh", step.expected},
-               {"scatter", step.scatter},       {"p_of_fit", step.p_of_fit},
-               {"p_of_scores", step.scores.p_value}, {"scores", Json::array()},
-               {"fits", Json::array()},         {"where", Json::array()}};
+  Json json = {{"neg_llh", step.neg_llh},
+               {"expected_neg_llh", step.expected},
+               {"scatter", step.scatter},
+               {"p_of_fit", step.p_of_fit},
+               {"p_of_scores", step.scores.p_value},
+               {"scores", Json::array()},
+               {"fits", Json::array()},
+               {"where", Json::array()}};
   for (const EffectScore& effect : step.scores.effects)
     json["scores"].push_back({{"effect", effect.best.suspect.effect},
                               {"place", effect.best.suspect.place},

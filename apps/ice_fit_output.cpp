@@ -147,8 +147,7 @@ void write_ice_fit(const IceFitReport& report, const fs::path& folder) {
   write_whole_file(folder / "result.json", json_text(ice_fit_json(report)));
   write_whole_file(folder / "stratigraphy.csv", stratigraphy_csv(rows));
   write_whole_file(folder / "stratigraphy.svg", stratigraphy_picture(rows, title));
-  write_improved_ice(report.base_request, report.fitted, {}, changes(report),
-                     folder / "improved-ice");
+  write_improved_ice(report.base_request, report.fitted, {}, changes(report), folder / "improved-ice");
 }
 
 }  // namespace floe

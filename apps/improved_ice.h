@@ -9,8 +9,8 @@
 
 namespace floe {
 
-// `beside_ice`: what the field's ice directories have no file for goes to floe.toml, which floe reads and others ignore.
-// Throws OutputError.
+// `beside_ice`: what the field's ice directories have no file for goes to floe.toml, which floe reads and
+// others ignore. Throws OutputError.
 void write_improved_ice(const ModelRequest& request, const Model& improved, const EffectGroups& beside_ice,
                         const std::string& changes, const std::filesystem::path& folder);
 

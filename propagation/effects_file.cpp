@@ -51,7 +51,8 @@ EffectGroups read_effects_file(const std::filesystem::path& directory) {
 }
 
 std::string effects_file_text(const EffectGroups& groups) {
-  std::string text = "# Effects that the other files of this directory cannot hold. Read by floe alone.\neffects = [\n";
+  std::string text =
+      "# Effects that the other files of this directory cannot hold. Read by floe alone.\neffects = [\n";
   for (const auto& group : groups) {
     text += "  [";
     for (std::size_t i = 0; i < group.size(); ++i)

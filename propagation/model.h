@@ -41,9 +41,10 @@ struct ModelRequest {
 // Reads and validates. Built-in ice takes the built-in detector and acceptance unless named otherwise.
 // as.dat, wv.dat and wv.rde are those of the ice directory, else of the detector directory; without any of
 // them, the built-in acceptance serves when ice or detector are built in. The overall efficiency is the
-// ice's. Effects in the ice directory's floe.toml (effects_file.h) are applied first. Throws InputError (missing or malformed files; modules of high quantum efficiency without wv.rde;
-// neither acceptance; what the effects leave is not physical), UsageError (unknown
-// effect, parameter or version, a parameter's value out of its range).
+// ice's. Effects in the ice directory's floe.toml (effects_file.h) are applied first. Throws InputError
+// (missing or malformed files; modules of high quantum efficiency without wv.rde; neither acceptance; what
+// the effects leave is not physical), UsageError (unknown effect, parameter or version, a parameter's value
+// out of its range).
 Model load_model(const ModelRequest& request);
 
 // Names that switch_off() takes, in the order in which help lists them: birefringence (its scattering

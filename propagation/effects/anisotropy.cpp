@@ -54,8 +54,8 @@ class ScatteringAnisotropy final : public Effect {
   std::vector<EffectParameter> parameters(const ModelParts& model) const override {
     const IceTables& ice = model.ice;
     const double null_value = ice.layers.empty() ? ice.configuration.k1 : k1_of(ice, ice.layers.front());
-    return {{"k1", "", "natural logarithm along the flow; k2 = -k1/2", null_value, -0.5, 0.5,
-             false, a_tenth}};
+    return {
+        {"k1", "", "natural logarithm along the flow; k2 = -k1/2", null_value, -0.5, 0.5, false, a_tenth}};
   }
   void apply(std::span<const double> values, ModelParts& model) const override {
     const double k1 = values[0];

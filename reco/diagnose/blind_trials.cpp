@@ -46,10 +46,10 @@ class Trials {
     }
     const SuspectPlan plan = plan_suspects(base_, shallowest, deepest);
     SurveyPlan survey_plan{.parameters = plan.parameters};
-    const Survey survey =
-        survey_data(base_, data, look, survey_plan, options_, [this](double fraction, const std::string& text) {
-          if (progress_) progress_(0.3 * fraction, "survey: " + text);
-        });
+    const Survey survey = survey_data(base_, data, look, survey_plan, options_,
+                                      [this](double fraction, const std::string& text) {
+                                        if (progress_) progress_(0.3 * fraction, "survey: " + text);
+                                      });
     const std::vector<Suspect> suspects = suspects_of(survey, plan);
     const ScoreTester tester(survey, suspects, plan.parameters, options_.draws, options_.seed);
 
@@ -71,7 +71,8 @@ class Trials {
       event.id = fmt::format("{},{}", runs_[r].module.string, runs_[r].module.dom);
       event.flasher = runs_[r];
       event.flasher->oversize = options_.oversize;
-      for (const SimulatedHit& hit : simulate_run(base_, request_of(runs_[r], options_, data_stream + r)).hits)
+      for (const SimulatedHit& hit :
+           simulate_run(base_, request_of(runs_[r], options_, data_stream + r)).hits)
         event.hits.push_back(to_hit(hit, *base_.detector));
       events.push_back(std::move(event));
     }
@@ -81,7 +82,8 @@ class Trials {
   // Of each effect some, at places drawn at random, as strong as wanted and as its parameters allow.
   std::vector<HiddenEffect> draw_hidden(const ScoreTester& tester, const SuspectPlan&) {
     std::map<std::string, std::vector<const TestedSuspect*>> by_effect;
-    for (const TestedSuspect& suspect : tester.suspects()) by_effect[suspect.suspect->effect].push_back(&suspect);
+    for (const TestedSuspect& suspect : tester.suspects())
+      by_effect[suspect.suspect->effect].push_back(&suspect);
     std::vector<HiddenEffect> all;
     for (const auto& [effect, places] : by_effect)
       for (int t = 0; t < options_.trials; ++t) {
@@ -91,8 +93,8 @@ class Trials {
           all.push_back(std::move(hidden));
           models_.push_back(std::move(model));
         } else {
-          result_.not_tried[effect] = fmt::format("these runs do not show it at {} standard deviations",
-                                                  options_.least);
+          result_.not_tried[effect] =
+              fmt::format("these runs do not show it at {} standard deviations", options_.least);
         }
       }
     for (int t = 0; t < options_.nothing; ++t) {
@@ -117,7 +119,8 @@ class Trials {
       const double unit = std::sqrt(2 * place.expected_gain(direction));
       if (!(unit > 0)) continue;
       const Eigen::VectorXd amplitudes = direction * wanted / unit;
-      if (((amplitudes - place.low).array() < 0).any() || ((place.high - amplitudes).array() < 0).any()) continue;
+      if (((amplitudes - place.low).array() < 0).any() || ((place.high - amplitudes).array() < 0).any())
+        continue;
       try {
         const auto parameters = fit_parameters(*place.suspect, amplitudes, base_);
         if (!reaches(place, parameters, amplitudes)) continue;
@@ -141,7 +144,8 @@ class Trials {
                const Eigen::VectorXd& amplitudes) const {
     if (place.suspect->place.count("depth")) return std::abs(amplitudes(0)) < std::log(2.5);
     for (std::size_t i = 0; i < parameters.size(); ++i) {
-      const double null_value = place.suspect->place.empty() ? effect_parameter(parameters[i].name, base_).start
+      const double null_value = place.suspect->place.empty()
+                                    ? effect_parameter(parameters[i].name, base_).start
                                 : parameters[i].name.ends_with("factor") ? 1
                                                                          : 0;
       const double is = parameters[i].start - null_value, wanted = amplitudes(static_cast<Eigen::Index>(i));
@@ -154,9 +158,9 @@ class Trials {
                    const ScoreTester& tester) const {
     SurveyCounts counts = measured_counts(survey);
     for (std::size_t r = 0; r < survey.runs.size(); ++r) {
-      const SimulatedRun light =
-          simulate_run(model, request_of(survey.runs[r].data.run, options_,
-                                         trial_stream + number * survey.runs.size() + r));
+      const SimulatedRun light = simulate_run(
+          model,
+          request_of(survey.runs[r].data.run, options_, trial_stream + number * survey.runs.size() + r));
       counts[r].data.setZero();
       for (const SimulatedHit& hit : light.hits)
         if (const int bin = survey.runs[r].bins.bin(hit.module, hit.time); bin >= 0) counts[r].data(bin) += 1;

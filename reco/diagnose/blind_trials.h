@@ -1,5 +1,6 @@
-// Blind trials of the diagnosis, in a fast form: an effect is drawn at random in kind, place and strength, light
-// is simulated with it, and the score test is asked what is missing. All trials share one survey of the base.
+// Blind trials of the diagnosis, in a fast form: an effect is drawn at random in kind, place and strength,
+// light is simulated with it, and the score test is asked what is missing. All trials share one survey of the
+// base.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +18,8 @@
 namespace floe {
 
 struct BlindTrialOptions : RunSettings {
-  int trials = 3;    // of each effect
-  int nothing = 20;  // trials with nothing missing
+  int trials = 3;               // of each effect
+  int nothing = 20;             // trials with nothing missing
   double least = 5, most = 12;  // expected significance of what is hidden, in standard deviations
   double alpha = 0.01, floor = 0.005;
   int draws = 300;

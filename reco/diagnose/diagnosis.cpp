@@ -15,7 +15,7 @@ namespace floe {
 namespace {
 
 constexpr std::uint64_t look_stream = std::uint64_t{1} << 44, judge_stream = std::uint64_t{1} << 45;
-constexpr double alike = 0.9;         // correlation of effects that the data cannot tell apart
+constexpr double alike = 0.9;           // correlation of effects that the data cannot tell apart
 constexpr double leading_share = 0.35;  // of the best gain: suspects that are fitted, too
 constexpr std::size_t most_trials = 3;
 constexpr int rounds = 4, rounds_of_folds = 2;
@@ -57,13 +57,13 @@ class Diagnoser {
     for (int step = 0;; ++step) {
       const bool gap = look_at(current(), step);
       DiagnosisStep& now = result_.steps.back();
+      const bool added = gap && step < options_.most_effects && add_effect(now, step);
+      // A score that no fit to fresh light confirms is none.
       if (step == 0)
-        result_.p_value = std::min(1.0, 2 * std::min(now.p_of_fit, now.scores.p_value));
-      if (!gap) break;
-      if (step == options_.most_effects || !add_effect(now, step)) {
-        unexplained = true;
-        break;
-      }
+        result_.p_value = std::min(1.0, 2 * std::min(now.p_of_fit, added || !gap ? now.scores.p_value : 1.0));
+      if (added) continue;
+      unexplained = now.p_of_fit < options_.alpha / 2;
+      break;
     }
     finish(unexplained);
     return std::move(result_);
@@ -122,8 +122,8 @@ class Diagnoser {
 #pragma omp parallel for
     for (int d = 0; d < options_.draws; ++d)
       drawn[static_cast<std::size_t>(d)] =
-          sum(neg_llh_of(survey, drawn_counts(survey, options_.seed, (std::uint64_t{1} << 33) +
-                                                                         static_cast<std::uint64_t>(d))));
+          sum(neg_llh_of(survey, drawn_counts(survey, options_.seed,
+                                              (std::uint64_t{1} << 33) + static_cast<std::uint64_t>(d))));
     for (const double value : drawn) now.expected += value / options_.draws;
     for (const double value : drawn) squares += std::pow(value - now.expected, 2);
     now.scatter = std::sqrt(squares / (options_.draws - 1));
@@ -169,8 +169,7 @@ class Diagnoser {
       if (is_in_the_model(score.best.suspect)) continue;
       try {
         fits.push_back(fit(data_, with(trial.parameters), rounds));
-        trial.neg_llh =
-            neg_llh_of_all(with_parameters(base_, fits.back().parameters, fits.back().numbers));
+        trial.neg_llh = neg_llh_of_all(with_parameters(base_, fits.back().parameters, fits.back().numbers));
       } catch (const Error&) {
         // No physical ice on its way: it is not what is missing.
         if (fits.size() > now.trials.size()) fits.pop_back();
@@ -245,8 +244,8 @@ class Diagnoser {
     }
     try {
       const IceFit fit = this->fit(data_, layered, rounds);
-      const double gain = neg_llh_of_all(current()) -
-                          neg_llh_of_all(with_parameters(base_, fit.parameters, fit.numbers));
+      const double gain =
+          neg_llh_of_all(current()) - neg_llh_of_all(with_parameters(base_, fit.parameters, fit.numbers));
       if (gain < 0.5 * (range.groups - 1)) return;
       spans_.back().count = layered.size() - span.first;
       NamedEffect& effect = result_.effects.back();
@@ -256,7 +255,9 @@ class Diagnoser {
       // Some layer scatters too little for so strong crystals: one strength for all stays.
     }
   }
-  bool is_layered(const NamedEffect& effect) const { return !effect.parameters.front().family.empty(); }
+  bool is_layered(const NamedEffect& effect) const {
+    return !effect.parameters.front().family.empty();
+  }
 
   void take_mean(const Span& span, const IceFit& fit, NamedEffect& effect) const {
     const auto count = static_cast<Eigen::Index>(span.count), first = static_cast<Eigen::Index>(span.first);
@@ -308,11 +309,11 @@ class Diagnoser {
     }
   }
   IceParameter null_of(const NamedEffect& effect, std::size_t i) const {
-    return effect.suspect.place.empty() ? effect_parameter(effect.parameters[i].name, base_)
-                                        : fit_parameters(effect.suspect,
-                                                         Eigen::VectorXd::Zero(static_cast<Eigen::Index>(
-                                                             effect.parameters.size())),
-                                                         base_)[i];
+    return effect.suspect.place.empty()
+               ? effect_parameter(effect.parameters[i].name, base_)
+               : fit_parameters(effect.suspect,
+                                Eigen::VectorXd::Zero(static_cast<Eigen::Index>(effect.parameters.size())),
+                                base_)[i];
   }
   void drop(std::size_t e) {
     const Span span = spans_[e];
@@ -327,8 +328,10 @@ class Diagnoser {
     result_.effects.erase(result_.effects.begin() + static_cast<std::ptrdiff_t>(e));
     for (DiagnosisStep& step : result_.steps)
       if (step.added && *step.added >= e) {
-        if (*step.added == e) step.added.reset();
-        else --*step.added;
+        if (*step.added == e)
+          step.added.reset();
+        else
+          --*step.added;
       }
   }
 

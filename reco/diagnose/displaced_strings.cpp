@@ -19,7 +19,8 @@ Model displaced(const Model& model, int except, const Vec3& offset) {
   for (auto& [string, hole] : holes)
     if (string != except) hole += offset.head<2>();
   Model moved = model;
-  moved.detector = std::make_shared<const Detector>(model.detector->name(), std::move(modules), std::move(holes));
+  moved.detector =
+      std::make_shared<const Detector>(model.detector->name(), std::move(modules), std::move(holes));
   return moved;
 }
 
@@ -32,10 +33,11 @@ DisplacedStrings displaced_strings(const Model& model, const RunRequest& request
   less.photons *= share;
   RunLight slopes = light;
   slopes.symmetric.assign(3, 0);
+  // Relative to these simulations' own counts: nothing of the run's own noise is in the slopes.
   for (LightFold& fold : slopes.folds) {
+    fold.counts.setZero();
     fold.slopes = Eigen::MatrixXd::Zero(bins.size(), 3);
     fold.slope_squares = fold.slopes;
-    fold.dwell = fold.counts.replicate(1, 3);
   }
   for (int axis = 0; axis < 3; ++axis)
     for (const double way : {-1.0, 1.0}) {
@@ -46,10 +48,12 @@ DisplacedStrings displaced_strings(const Model& model, const RunRequest& request
       const RunLight counted = count_light(simulated, bins, less.photons, 0);
       const double factor = way / (2 * reach * share);
       for (int fold = 0; fold < 2; ++fold) {
+        slopes.folds[fold].counts += counted.folds[fold].counts / (6 * share);
         slopes.folds[fold].slopes.col(axis) += factor * counted.folds[fold].counts;
         slopes.folds[fold].slope_squares.col(axis) += factor * factor * counted.folds[fold].counts;
       }
     }
+  for (LightFold& fold : slopes.folds) fold.dwell = fold.counts.replicate(1, 3);
   const SmoothSlopes smooth = smooth_slopes(slopes.folds, slopes.places, slopes.symmetric);
   result.fold = {smooth.fold[0], smooth.fold[1]};
   return result;

@@ -15,10 +15,14 @@ namespace {
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
-    if (c == '<') result += "&lt;";
-    else if (c == '>') result += "&gt;";
-    else if (c == '&') result += "&amp;";
-    else result += c;
+    if (c == '<')
+      result += "&lt;";
+    else if (c == '>')
+      result += "&gt;";
+    else if (c == '&')
+      result += "&amp;";
+    else
+      result += c;
   }
   return result;
 }
@@ -29,7 +33,8 @@ std::string cells(const std::vector<std::string>& row, const char* tag) {
   return text + "</tr>\n";
 }
 
-std::string table(const std::vector<std::string>& heading, const std::vector<std::vector<std::string>>& rows) {
+std::string table(const std::vector<std::string>& heading,
+                  const std::vector<std::vector<std::string>>& rows) {
   std::string text = "<table>\n" + cells(heading, "th");
   for (const auto& row : rows) text += cells(row, "td");
   return text + "</table>\n";
@@ -58,7 +63,8 @@ class ProfilePlot {
     reach_ = 0.05;
     for (const ResidualProfile* p : {&before, after})
       for (std::size_t i = 0; p && i < p->low.size(); ++i)
-        if (p->error[i] > 0 && p->error[i] < 0.1) reach_ = std::max(reach_, std::abs(p->relative[i]) + p->error[i]);
+        if (p->error[i] > 0 && p->error[i] < 0.1)
+          reach_ = std::max(reach_, std::abs(p->relative[i]) + p->error[i]);
     reach_ = std::min(reach_ * 1.1, 1.0);
     frame(before);
     draw(before, "#c0392b", -1.5);
@@ -70,9 +76,7 @@ class ProfilePlot {
   static constexpr double width = 380, height = 230, left = 56, right = 12, top = 26, bottom = 42;
 
   double x(double value) const { return left + (value - low_) / (high_ - low_) * (width - left - right); }
-  double y(double value) const {
-    return top + (reach_ - value) / (2 * reach_) * (height - top - bottom);
-  }
+  double y(double value) const { return top + (reach_ - value) / (2 * reach_) * (height - top - bottom); }
 
   void frame(const ResidualProfile& p) {
     svg_.rectangle({0, 0}, width, height, "#ffffff");
@@ -144,8 +148,9 @@ std::string score_table(const DiagnosisStep& step) {
     rows.push_back({text_of(effect.best.suspect), fmt::format("{:.1f}", effect.best.gain),
                     fmt::format("{:.1f}", sigmas_of(effect.ln_p)),
                     fmt::format("{:.1f}%", 100 * effect.best.size), fmt::format("{:.2f}", effect.likeness)});
-  return table({"effect", "expected gain in ln L", "standard deviations", "changes light by", "likeness to the first"},
-               rows);
+  return table(
+      {"effect", "expected gain in ln L", "standard deviations", "changes light by", "likeness to the first"},
+      rows);
 }
 
 std::string trial_table(const DiagnosisStep& step) {
@@ -180,7 +185,8 @@ std::string gap_table(const Diagnosis& diagnosis) {
   std::vector<std::vector<std::string>> rows;
   for (const RunGap& run : diagnosis.gaps)
     rows.push_back({run.run, fmt::format("{:.1f}", run.before), fmt::format("{:.1f}", run.after)});
-  rows.push_back({"all", fmt::format("{:.1f}", diagnosis.gap_before), fmt::format("{:.1f}", diagnosis.gap_after)});
+  rows.push_back(
+      {"all", fmt::format("{:.1f}", diagnosis.gap_before), fmt::format("{:.1f}", diagnosis.gap_after)});
   return table({"run, held out", "gap before", "gap after"}, rows);
 }
 
@@ -210,7 +216,8 @@ std::string verdict_sentence(const Diagnosis& diagnosis, double alpha) {
                      unexplained ? "; something remains that no effect of the catalogue explains" : "");
 }
 
-std::string report_html(const Diagnosis& diagnosis, const DiagnosisOptions& options, const ReportFacts& facts) {
+std::string report_html(const Diagnosis& diagnosis, const DiagnosisOptions& options,
+                        const ReportFacts& facts) {
   std::string text = fmt::format(
       "<!doctype html>\n<html lang=en><head><meta charset=utf-8><title>Diagnosis of {0}</title>"
       "<style>{1}</style></head><body>\n<h1>What is {0} missing?</h1>\n",
@@ -224,9 +231,10 @@ std::string report_html(const Diagnosis& diagnosis, const DiagnosisOptions& opti
   text += pictures(diagnosis);
   if (!diagnosis.effects.empty()) text += "<h2>Added to the model</h2>\n" + effects_table(diagnosis);
   for (const std::string& remark : diagnosis.remarks) text += "<p>" + escaped(remark) + ".</p>\n";
-  text += "<h2>Gap before and after</h2>\n<p>Deviance of each run above what it would be on average if the "
-          "model were true; after: of models that were fitted to other runs.</p>\n" +
-          gap_table(diagnosis);
+  text +=
+      "<h2>Gap before and after</h2>\n<p>Deviance of each run above what it would be on average if the "
+      "model were true; after: of models that were fitted to other runs.</p>\n" +
+      gap_table(diagnosis);
   for (std::size_t i = 0; i < diagnosis.steps.size(); ++i) text += step_text(diagnosis, i);
   if (!diagnosis.left_out.empty()) {
     text += "<h2>Left out</h2>\n<ul>\n";
@@ -237,7 +245,8 @@ std::string report_html(const Diagnosis& diagnosis, const DiagnosisOptions& opti
       "<h2>To repeat this</h2>\n<p><code>{}</code></p>\n<p>floe {}, seed {}, {:.0f} s. alpha {:g}: the "
       "probability of naming anything when nothing is missing. Floor {:g}%: smaller changes of light are not "
       "told from differences between programs.</p>\n</body></html>\n",
-      escaped(facts.command), facts.version, facts.seed, diagnosis.seconds, options.alpha, 100 * options.floor);
+      escaped(facts.command), facts.version, facts.seed, diagnosis.seconds, options.alpha,
+      100 * options.floor);
   return text;
 }
 

@@ -14,6 +14,7 @@ struct ReportFacts {
 
 // One sentence: what is missing, or that nothing is.
 std::string verdict_sentence(const Diagnosis& diagnosis, double alpha);
-std::string report_html(const Diagnosis& diagnosis, const DiagnosisOptions& options, const ReportFacts& facts);
+std::string report_html(const Diagnosis& diagnosis, const DiagnosisOptions& options,
+                        const ReportFacts& facts);
 
 }  // namespace floe

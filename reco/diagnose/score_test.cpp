@@ -23,7 +23,8 @@ VectorXd combined(const Suspect& suspect, const VectorXd& columns) {
 
 // Of the columns of one suspect with those of another.
 MatrixXd combined(const Suspect& a, const Suspect& b, const MatrixXd& columns) {
-  MatrixXd sums(static_cast<Eigen::Index>(a.amplitudes.size()), static_cast<Eigen::Index>(b.amplitudes.size()));
+  MatrixXd sums(static_cast<Eigen::Index>(a.amplitudes.size()),
+                static_cast<Eigen::Index>(b.amplitudes.size()));
   for (Eigen::Index i = 0; i < sums.rows(); ++i)
     for (Eigen::Index k = 0; k < sums.cols(); ++k) {
       double sum = 0;
@@ -38,8 +39,8 @@ MatrixXd combined(const Suspect& a, const Suspect& b, const MatrixXd& columns) {
 // Combinations of amplitudes that change light by something: columns of the result. `light`: counts of all
 // bins.
 MatrixXd known_directions(const MatrixXd& information, double light) {
-  constexpr double least = 1e-4;     // of the largest
-  constexpr double hardly = 1e-9;    // mean square of the relative change of light
+  constexpr double least = 1e-4;   // of the largest
+  constexpr double hardly = 1e-9;  // mean square of the relative change of light
   const Eigen::SelfAdjointEigenSolver<MatrixXd> parts(information);
   const VectorXd& values = parts.eigenvalues();  // rising
   const double limit = std::max(least * values.maxCoeff(), hardly * light);
@@ -82,7 +83,7 @@ double ln_probability(double gain, double ln_number) {
 }
 
 std::vector<TestedSuspect> prepare(const Survey& survey, const std::vector<Suspect>& suspects,
-                            const std::vector<IceParameter>& parameters) {
+                                   const std::vector<IceParameter>& parameters) {
   double light = 0;
   for (const SurveyRun& run : survey.runs) light += (run.trust * run.expected).sum();
   std::vector<TestedSuspect> tested;
@@ -102,7 +103,8 @@ std::vector<TestedSuspect> prepare(const Survey& survey, const std::vector<Suspe
 }
 
 // Correlation of the change of light that `a` makes with the most alike that `b` can make.
-double likeness(const Score& a, const TestedSuspect& of_a, const TestedSuspect& b, const MatrixXd& information) {
+double likeness(const Score& a, const TestedSuspect& of_a, const TestedSuspect& b,
+                const MatrixXd& information) {
   const MatrixXd cross = combined(*b.suspect, *of_a.suspect, information);
   const VectorXd along = cross * a.amplitudes;
   const double own = a.amplitudes.dot(of_a.information * a.amplitudes);
@@ -179,8 +181,7 @@ ScoreTest ScoreTester::test(const SurveyCounts& counts, double floor) const {
     // Of all its places, the one that imitates best.
     for (const TestedSuspect& t : tested_)
       if (t.suspect->effect == effect.best.suspect.effect)
-        effect.likeness =
-            std::max(effect.likeness, likeness(first.best, of_first, t, survey_.information));
+        effect.likeness = std::max(effect.likeness, likeness(first.best, of_first, t, survey_.information));
   }
   return result;
 }
@@ -197,8 +198,7 @@ double sigmas_of(double ln_p) {
     const bool far = s > 30;
     const double value = far ? -s * s / 2 - std::log(s) + std::log(2 / std::sqrt(2 * std::numbers::pi))
                              : std::log(std::erfc(s / std::numbers::sqrt2));
-    const double slope = far ? -s - 1 / s
-                             : -std::sqrt(2 / std::numbers::pi) * std::exp(-s * s / 2 - value);
+    const double slope = far ? -s - 1 / s : -std::sqrt(2 / std::numbers::pi) * std::exp(-s * s / 2 - value);
     const double step = (ln_p - value) / slope;
     s = std::max(1e-9, s + step);
     if (std::abs(step) < 1e-10) break;

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "reco/diagnose/suspects.h"
 #include "reco/diagnose/survey.h"
+#include "reco/diagnose/suspects.h"
 
 namespace floe {
 
@@ -24,7 +24,8 @@ struct Score {
 // The best suspect of one effect, judged among all places that were tried.
 struct EffectScore {
   Score best;
-  double ln_p = 0;  // logarithm of the probability of as much gain from any of its suspects if nothing is missing
+  double ln_p =
+      0;  // logarithm of the probability of as much gain from any of its suspects if nothing is missing
   // Share of the best suspect's change of light that this one can imitate: correlation, brightness and time
   // zero of runs apart.
   double likeness = 0;

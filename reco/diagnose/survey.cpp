@@ -71,7 +71,8 @@ Eigen::VectorXd place_slope(const SurveyColumn& column, const SurveyRun& run, co
     auto of_receiver = slope.segment(receiver.first, receiver.bins());
     const bool here = id.string == column.string;
     switch (column.kind) {
-      case Kind::parameter: break;
+      case Kind::parameter:
+        break;
       case Kind::module_efficiency:
         if (here && id.dom == column.dom) of_receiver.setOnes();
         break;
@@ -197,7 +198,8 @@ class Surveyor {
     // Pairs have photons of their own, so that both halves of theirs may serve.
     for (Eigen::Index p = 0; p < slopes[0].parameters.cols(); ++p)
       if (!light.symmetric[static_cast<std::size_t>(p)])
-        slopes[0].parameters.col(p) = slopes[1].parameters.col(p) = (smooth.fold[0].col(p) + smooth.fold[1].col(p)) / 2;
+        slopes[0].parameters.col(p) = slopes[1].parameters.col(p) =
+            (smooth.fold[0].col(p) + smooth.fold[1].col(p)) / 2;
     if (plan_.places) {
       RunRequest other = request;
       other.stream += 2;
@@ -208,8 +210,7 @@ class Surveyor {
     }
     const Eigen::ArrayXd both = run.counts.simulated[0] + run.counts.simulated[1];
     run.expected = run.scale * both;
-    run.trust =
-        1 / (1 + run.expected * (1 / both.max(1) + settings_.model_error * settings_.model_error));
+    run.trust = 1 / (1 + run.expected * (1 / both.max(1) + settings_.model_error * settings_.model_error));
     const Eigen::ArrayXd delay = (light.folds[0].delay + light.folds[1].delay).array() / both.max(1);
     run.nuisance.resize(run.bins.size(), 2);
     run.nuisance << Eigen::VectorXd::Ones(run.bins.size()), delay.matrix();
@@ -291,8 +292,7 @@ class Surveyor {
       const Eigen::MatrixXd root = weighted(w, variance);
       survey_.noise.noalias() += root.transpose() * root;
     };
-    const Eigen::MatrixXd light =
-        run.weights[1].array().colwise() * (run.trust * run.expected);
+    const Eigen::MatrixXd light = run.weights[1].array().colwise() * (run.trust * run.expected);
     survey_.information.noalias() += run.weights[0].transpose() * light;
     // The half that weights come from does not judge them: each half's expectation stands for all the light.
     for (std::size_t fold = 0; fold < 2; ++fold)

@@ -19,7 +19,15 @@ namespace floe {
 
 // One possible change: slopes of ln(light) in the survey's bins are a column.
 struct SurveyColumn {
-  enum class Kind { parameter, string_efficiency, module_efficiency, string_time, string_x, string_y, string_z };
+  enum class Kind {
+    parameter,
+    string_efficiency,
+    module_efficiency,
+    string_time,
+    string_x,
+    string_y,
+    string_z
+  };
   Kind kind = Kind::parameter;
   std::size_t parameter = 0;  // of the list given, where the kind says so
   int string = 0, dom = 0;    // else the place
@@ -65,10 +73,10 @@ std::vector<double> neg_llh_of(const Survey& survey, const SurveyCounts& counts)
 Eigen::VectorXd residual_of(const Survey& survey, const SurveyCounts& counts);
 
 struct SurveyPlan {
-  const std::vector<IceParameter>& parameters;  // at their null values in the model
+  const std::vector<IceParameter>& parameters;              // at their null values in the model
   double pair_reach = 1, pair_light = 0.25, one_sided = 4;  // see PairPlan
-  std::uint64_t stream = 0;                     // of each survey its own, counting from 0
-  bool places = true;                           // strings and modules, too
+  std::uint64_t stream = 0;                                 // of each survey its own, counting from 0
+  bool places = true;                                       // strings and modules, too
 };
 
 // `data`: screened; `look`: of the runs.

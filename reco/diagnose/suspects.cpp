@@ -14,21 +14,22 @@ namespace {
 constexpr double beyond_flashers = 150;  // light of a flasher tells little of ice further above or below [m]
 constexpr double thickness = 20;         // of the layers that bands are made of [m]
 constexpr double displaced_strings_at_most = 6;  // [m]
-constexpr double widest_band = 160;      // [m]; wider ones are no bands
+constexpr double widest_band = 160;              // [m]; wider ones are no bands
 
 using Kind = SurveyColumn::Kind;
 
 // What brightness and time zero of each run take up, and what bands and places say.
 bool is_plain(const std::string& effect) {
   static const std::vector<std::string> others{
-      "overall-efficiency", "flasher-brightness", "time-offset",     "absorption-layer",
+      "overall-efficiency", "flasher-brightness", "time-offset",       "absorption-layer",
       "scattering-layer",   "module-efficiency",  "string-efficiency", "geometry-offset"};
   return std::find(others.begin(), others.end(), effect) == others.end();
 }
 
 // Whether it changes anything: the scattering length of hole ice does not where there is none.
 bool matters(const Model& model, const IceParameter& parameter) {
-  const double step = parameter.scale * (parameter.start + 0.1 * parameter.scale > parameter.high ? -0.1 : 0.1);
+  const double step =
+      parameter.scale * (parameter.start + 0.1 * parameter.scale > parameter.high ? -0.1 : 0.1);
   try {
     const Model moved = with_parameters(model, {parameter}, {parameter.start + step});
     return moved.ice->hash() != model.ice->hash() || !(moved.sources == model.sources) ||

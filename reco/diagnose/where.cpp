@@ -22,9 +22,9 @@ constexpr double radian_in_degrees = 180 / std::numbers::pi;
 // A bin of the survey, seen from its flasher.
 struct Place {
   const Module* module;
-  Vec3 way;       // from the flasher
+  Vec3 way;         // from the flasher
   double lateness;  // 0..1 of the receiver's light
-  int bins;       // of the receiver
+  int bins;         // of the receiver
 };
 
 struct Axis {
@@ -101,11 +101,9 @@ std::vector<Axis> axes_of(const Model& model, const Survey& survey) {
     return std::fmod(std::atan2(p.way.y(), p.way.x()) * radian_in_degrees + 360, 180);
   }));
   axes.back().profile.circular = true;
-  axes.push_back(
-      ranged("distance", "m", 0, far, 12, places, [](const Place& p) { return p.way.norm(); }));
-  axes.push_back(ranged("time", "share of the light", 0, 0.25, 4, places, [](const Place& p) {
-    return p.bins >= 4 ? p.lateness : std::nan("");
-  }));
+  axes.push_back(ranged("distance", "m", 0, far, 12, places, [](const Place& p) { return p.way.norm(); }));
+  axes.push_back(ranged("time", "share of the light", 0, 0.25, 4, places,
+                        [](const Place& p) { return p.bins >= 4 ? p.lateness : std::nan(""); }));
   axes.push_back(ranged("arrival angle", "deg", 0, 15, 12, places, [](const Place& p) {
     return std::acos(std::clamp(p.way.z() / std::max(1.0, p.way.norm()), -1.0, 1.0)) * radian_in_degrees;
   }));
@@ -152,16 +150,19 @@ std::string place_text(const ResidualProfile& p, const Extreme& at) {
   const double from = p.low[first], to = p.high[last];
   if (p.axis == "depth") return fmt::format("on modules {:.0f}-{:.0f} m deep", from, to);
   if (p.axis == "azimuth")
-    return fmt::format("towards {:.0f}-{:.0f} deg and opposite", from, at.cells > 0 && to < from ? to + 180 : to);
+    return fmt::format("towards {:.0f}-{:.0f} deg and opposite", from,
+                       at.cells > 0 && to < from ? to + 180 : to);
   if (p.axis == "distance") return fmt::format("{:.0f}-{:.0f} m from the flashers", from, to);
   if (p.axis == "time")
     return from == 0 ? fmt::format("in the earliest {:.0f}% of the light", 100 * to)
            : to >= 1 ? fmt::format("in the latest {:.0f}% of the light", 100 * (1 - from))
                      : fmt::format("between {:.0f}% and {:.0f}% of the light", 100 * from, 100 * to);
   if (p.axis == "arrival angle")
-    return to <= 90    ? fmt::format("on modules above their flashers ({:.0f}-{:.0f} deg from the vertical)", from, to)
-           : from >= 90 ? fmt::format("on modules below their flashers ({:.0f}-{:.0f} deg)", from, to)
-                        : fmt::format("{:.0f}-{:.0f} deg from the vertical, seen from the flashers", from, to);
+    return to <= 90 ? fmt::format("on modules above their flashers ({:.0f}-{:.0f} deg from the vertical)",
+                                  from, to)
+           : from >= 90
+               ? fmt::format("on modules below their flashers ({:.0f}-{:.0f} deg)", from, to)
+               : fmt::format("{:.0f}-{:.0f} deg from the vertical, seen from the flashers", from, to);
   return fmt::format("on {} {}", p.axis, p.names[first]);
 }
 
@@ -180,8 +181,9 @@ Region region_of(const ResidualProfile& profile, const Extreme& at, const Vector
   region.sign = at.z < 0 ? -1 : 1;
   region.relative = light > 0 ? off / light : 0;
   region.significance = significance;
-  region.sentence = fmt::format("The data have {:.1f}% {} light than the model {}.", 100 * std::abs(region.relative),
-                                region.sign < 0 ? "less" : "more", place_text(profile, at));
+  region.sentence =
+      fmt::format("The data have {:.1f}% {} light than the model {}.", 100 * std::abs(region.relative),
+                  region.sign < 0 ? "less" : "more", place_text(profile, at));
   return region;
 }
 
@@ -202,8 +204,8 @@ Whereabouts where_is_the_gap(const Model& model, const Survey& survey, int draws
   for (const Axis& axis : axes) variances.push_back(sums_of(axis, variance));
 #pragma omp parallel for schedule(dynamic)
   for (int d = 0; d < draws; ++d) {
-    const VectorXd off =
-        residual_of(survey, drawn_counts(survey, seed, (std::uint64_t{1} << 32) + static_cast<std::uint64_t>(d)));
+    const VectorXd off = residual_of(
+        survey, drawn_counts(survey, seed, (std::uint64_t{1} << 32) + static_cast<std::uint64_t>(d)));
     for (std::size_t a = 0; a < axes.size(); ++a) {
       const double z = extreme(axes[a].profile, sums_of(axes[a], off), variances[a]).z;
       drawn[a][static_cast<std::size_t>(d)] = z * z / 2;

@@ -13,19 +13,19 @@ namespace floe {
 struct ResidualProfile {
   std::string axis;  // "depth", "azimuth", "distance", "time", "string", "module", "arrival angle"
   std::string unit;
-  bool ordered = true;     // neighbouring cells may form a region
-  bool circular = false;   // and the last is the first one's neighbour
-  std::vector<double> low, high;       // of the cells; of strings and modules their numbers
-  std::vector<std::string> names;      // of the cells, where they are no ranges
+  bool ordered = true;                  // neighbouring cells may form a region
+  bool circular = false;                // and the last is the first one's neighbour
+  std::vector<double> low, high;        // of the cells; of strings and modules their numbers
+  std::vector<std::string> names;       // of the cells, where they are no ranges
   std::vector<double> relative, error;  // counts above the expectation, as a share of it
 };
 
 struct Region {
   std::string axis;
   double from = 0, to = 0;
-  int sign = 0;              // +1: the data have more light than the model
-  double relative = 0;       // by that share
-  double significance = 0;   // standard deviations, corrected for the places looked at on this axis
+  int sign = 0;             // +1: the data have more light than the model
+  double relative = 0;      // by that share
+  double significance = 0;  // standard deviations, corrected for the places looked at on this axis
   std::string sentence;
 };
 

@@ -13,8 +13,8 @@ bool same_but_for_efficiency(const Module& a, const Module& b) {
 }
 
 double accepted(const AngularAcceptance& acceptance, const SimulatedHit& hit, const Module& module) {
-  return acceptance.maximum() * acceptance.probability(hit.direction.cast<double>(),
-                                                       hit.inward.cast<double>(), module.up_axis);
+  return acceptance.maximum() *
+         acceptance.probability(hit.direction.cast<double>(), hit.inward.cast<double>(), module.up_axis);
 }
 
 }  // namespace

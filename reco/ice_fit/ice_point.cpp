@@ -77,6 +77,7 @@ std::uint64_t IcePoint::add_pair(const RunRequest& request, const RunBins& bins,
   less.photons *= share;
   less.stream += plan.stream;
   std::uint64_t propagated = 0;
+  Eigen::VectorXd own[2] = {Eigen::VectorXd::Zero(bins.size()), Eigen::VectorXd::Zero(bins.size())};
   for (const double step : {down, up}) {
     SimulatedRun simulated = simulate_run(moved(parameter, step), less);
     delay(simulated, time_zero);
@@ -84,10 +85,18 @@ std::uint64_t IcePoint::add_pair(const RunRequest& request, const RunBins& bins,
     const RunLight counted = count_light(simulated, bins, less.photons, 0);
     const double factor = (step == up ? 1 : -1) / ((up - down) * share);
     for (int fold = 0; fold < 2; ++fold) {
+      own[fold] += counted.folds[fold].counts / (2 * share);
       light.folds[fold].slopes.col(column) += factor * counted.folds[fold].counts;
       light.folds[fold].slope_squares.col(column) += factor * factor * counted.folds[fold].counts;
     }
   }
+  // Slopes that are independent of the run's counts are relative to the pair's own.
+  if (plan.stream != 0)
+    for (int fold = 0; fold < 2; ++fold) {
+      const Eigen::ArrayXd ratio = light.folds[fold].counts.array() / own[fold].array().max(1);
+      light.folds[fold].slopes.col(column).array() *= ratio;
+      light.folds[fold].slope_squares.col(column).array() *= ratio.square();
+    }
   return propagated;
 }
 

@@ -15,8 +15,8 @@ namespace floe {
 
 // How slopes are found that weights cannot give: from two simulations with the same random numbers.
 struct PairPlan {
-  double reach = 0.5;  // from the point, each way, in the parameter's scale, as far as its limits allow
-  double light = 1;    // of each simulation, in units of the run's own
+  double reach = 0.5;    // from the point, each way, in the parameter's scale, as far as its limits allow
+  double light = 1;      // of each simulation, in units of the run's own
   double one_sided = 1;  // times that where a limit leaves one side only: that is where effects set in
   // 0: with the random numbers of the run itself; otherwise added to its stream, so that slopes are
   // independent of the run's counts.

@@ -79,9 +79,8 @@ RunMeasurement measure_run(const SimulatedRun& simulated, double photons, const 
                                             : run.charge * photons / std::max(1.0, used_hits(simulated, run));
   const Eigen::VectorXd data = run.counts(bins);
   const auto at = [&](double time_zero) {
-    RunMeasurement measured =
-        measure_counts({data, simulated_counts(simulated, bins, time_zero) / factor, photons / factor}, first,
-                       model_error);
+    RunMeasurement measured = measure_counts(
+        {data, simulated_counts(simulated, bins, time_zero) / factor, photons / factor}, first, model_error);
     measured.nuisances.time_zero = time_zero;
     return measured;
   };

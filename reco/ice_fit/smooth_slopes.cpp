@@ -14,7 +14,7 @@ namespace {
 constexpr double usual_distance = 100;  // [m]
 constexpr Eigen::Index directions = 3;  // the first terms: any way, along the flow, across it
 constexpr Eigen::Index symmetric_places = 12, number_of_places = 27;
-constexpr double ridge = 1e-6;          // keeps terms apart that few bins cannot tell apart
+constexpr double ridge = 1e-6;  // keeps terms apart that few bins cannot tell apart
 
 // Of one fold: mean slopes per bin with their noise, as if Gaussian.
 struct FoldSlopes {
@@ -70,7 +70,8 @@ Eigen::MatrixXd bin_places(const RunBins& bins, const Detector& detector, const 
     const Vec3 unit = way / std::sqrt(square);
     const double with_flow = unit.dot(flow), beside_flow = Vec3::UnitZ().cross(flow).dot(unit);
     const double along = with_flow * with_flow, across = beside_flow * beside_flow;
-    Eigen::Matrix<double, 1, 5> odd;  // what has another symmetry than ice: its axis, depth, places of modules
+    Eigen::Matrix<double, 1, 5>
+        odd;  // what has another symmetry than ice: its axis, depth, places of modules
     odd << with_flow * beside_flow, unit.z(), unit.z() * unit.z(), with_flow, beside_flow;
     for (int i = 0; i < receiver.bins(); ++i) {
       const double late = (2 * i + 1.0) / receiver.bins() - 1;

@@ -14,7 +14,7 @@ constexpr int photons = 400;
 SimulatedRun some_light() {
   SimulatedRun run;
   for (std::uint64_t photon = 0; photon < photons; ++photon) {
-    SimulatedHit hit{};
+    SimulatedHit hit{0, 0, 400, Vec3f::UnitZ(), Vec3f::UnitZ(), 0};
     hit.photon = photon;
     run.hits.push_back(hit);
     if (photon % 4 < 2) hit.module = 1, run.hits.push_back(hit);
