@@ -17,6 +17,7 @@ namespace {
 constexpr std::uint64_t look_stream = std::uint64_t{1} << 44, judge_stream = std::uint64_t{1} << 45;
 constexpr double alike = 0.9;           // correlation of effects that the data cannot tell apart
 constexpr double leading_share = 0.35;  // of the best gain: suspects that are fitted, too
+constexpr double as_good = 3;           // of -ln L: the noise of simulations
 constexpr std::size_t most_trials = 3;
 constexpr int rounds = 4, rounds_of_folds = 2;
 constexpr double still_there = 3;  // standard deviations, of effects when another one has come in
@@ -185,7 +186,15 @@ class Diagnoser {
     std::vector<std::size_t> order(fits.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(), [&](auto a, auto b) { return cost(a) < cost(b); });
-    const std::size_t best = order.front();
+    // Fits that are as good within the noise of simulations are told apart by the scores, whose order they
+    // have.
+    std::size_t best = order.front();
+    for (std::size_t i = 0; i < fits.size(); ++i)
+      if (cost(i) < cost(order.front()) + as_good) {
+        best = i;
+        break;
+      }
+    std::stable_partition(order.begin(), order.end(), [&](std::size_t i) { return i == best; });
     const double gain = neg_llh_of_all(current()) - now.trials[best].neg_llh;
     if (gain < 3 + 0.5 * static_cast<double>(now.trials[best].parameters.size())) return false;
     accept(now, best, fits[best], gain);
@@ -208,8 +217,13 @@ class Diagnoser {
     named.suspect = trial.suspect;
     named.parameters = trial.parameters;
     named.group = {trial.suspect.effect};
-    // Likeness is known to the leader of the scores.
-    if (now.scores.effects.front().best.suspect.effect == trial.suspect.effect)
+    // Likeness is known to the leader of the scores: who is like the leader, as what is added is, is alike.
+    const auto leads_with = [&](const std::string& effect) {
+      for (const EffectScore& score : now.scores.effects)
+        if (score.best.suspect.effect == effect) return score.likeness > alike;
+      return false;
+    };
+    if (leads_with(trial.suspect.effect))
       for (const EffectScore& other : now.scores.effects)
         if (other.best.suspect.effect != trial.suspect.effect && other.likeness > alike &&
             rivals(now, other.best.suspect.effect, trial.neg_llh))

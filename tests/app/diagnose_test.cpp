@@ -41,8 +41,10 @@ TEST_F(Diagnose, NamesWhatWasHidden) {
   simulate("--with absorption-anisotropy.k1=0");
   const Json found = diagnosis();
   ASSERT_FALSE(found["verdict"].empty());
-  EXPECT_EQ(found["verdict"][0], "absorption-anisotropy") << found["steps"][0]["scores"].dump(1);
+  ASSERT_EQ(found["verdict"][0], "absorption-anisotropy") << found["steps"][0]["scores"].dump(1);
   EXPECT_EQ(found["groups"]["absorption-anisotropy"][0], "absorption-anisotropy");
+  // With so little light the data may not tell it from the other anisotropy: then they are a group.
+  EXPECT_LE(found["groups"]["absorption-anisotropy"].size(), 2u);
   const Json& k1 = found["effects"][0]["parameters"]["k1"];
   const double value = k1["value"], error = k1["error"];
   EXPECT_GT(error, 0.01);
@@ -53,7 +55,6 @@ TEST_F(Diagnose, NamesWhatWasHidden) {
   EXPECT_GT(found["closed"].get<double>(), 0.5);
   EXPECT_EQ(found["gaps"].size(), 2u);
 
-  // The light goes too far along the flow, or not far enough across it: of its neighbourhood, most.
   EXPECT_FALSE(found["where"].empty());
   EXPECT_NE(text_of("found/report.html").find("Missing: absorption-anisotropy"), std::string::npos);
   EXPECT_NE(hash_of("found/improved-ice"), hash_of("south-pole"));
