@@ -117,11 +117,15 @@ std::string summary(const Diagnosis& diagnosis, const DiagnoseCommand& command) 
   text += verdict_sentence(diagnosis, command.options.alpha) + "\n";
   if (!diagnosis.verdict.empty()) text += diagnosis.steps.front().where.regions.front().sentence + "\n";
   TextTable table({"effect", "parameter", "fitted", "error", "unit"});
-  for (const NamedEffect& effect : diagnosis.effects)
+  for (const NamedEffect& effect : diagnosis.effects) {
+    if (effect.mean)
+      table.add({"", effect.mean->name + ", mean", fmt::format("{:.3f}", effect.mean->value),
+                 fmt::format("{:.3f}", effect.mean->error), ""});
     for (std::size_t i = 0; i < effect.values.size(); ++i)
       table.add({i == 0 ? text_of(effect.suspect) : "", effect.parameters[i].name,
                  fmt::format("{:.3f}", effect.values[i]), fmt::format("{:.3f}", effect.errors[i]),
                  effect.parameters[i].unit});
+  }
   if (!diagnosis.effects.empty()) text += table.str();
   for (const std::string& remark : diagnosis.remarks) text += remark + "\n";
   return text + fmt::format("Gap in held-out runs: {:.1f} before, {:.1f} after ({:.0f} s).\n",
@@ -151,7 +155,9 @@ void run_diagnose(const DiagnoseCommand& given) {
     diagnosis = diagnose(base, data, command.options, bar.callback());
   }
   const std::string result = json_text(diagnosis_json(diagnosis, command, base));
-  const ReportFacts facts{command.data, command.model.ice, command.command, FLOE_VERSION, command.run.seed};
+  const std::filesystem::path ice = command.model.ice;
+  const ReportFacts facts{command.data, (ice.has_filename() ? ice : ice.parent_path()).filename().string(),
+                          command.command, FLOE_VERSION, command.run.seed};
   write_whole_file(folder.temporary() / "result.json", result);
   write_whole_file(folder.temporary() / "report.html", report_html(diagnosis, command.options, facts));
   write_improved_ice(command.model, diagnosis.improved, diagnosis.beside_ice,

@@ -1,7 +1,6 @@
 #include "reco/diagnose/report.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -124,21 +123,35 @@ std::string pictures(const Diagnosis& diagnosis) {
          (last ? " &nbsp; <span style='color:#2166ac'>●</span> with what was added" : "") + "</p>\n";
 }
 
-std::string place_rows(const NamedEffect& effect) {
+std::string place_text(const NamedEffect& effect) {
   std::string text;
   for (const auto& [name, value] : effect.suspect.place)
     if (name == "string" || name == "dom") text += fmt::format("{} {:.0f} ", name, value);
   return text;
 }
 
+// What the data cannot tell from it, besides itself.
+std::string alike_text(const NamedEffect& effect) {
+  std::string text;
+  for (const std::string& other : effect.group)
+    if (other != effect.suspect.effect) text += (text.empty() ? "" : ", ") + other;
+  return text.empty() ? "nothing else" : text;
+}
+
 std::string effects_table(const Diagnosis& diagnosis) {
   std::vector<std::vector<std::string>> rows;
-  for (const NamedEffect& effect : diagnosis.effects)
+  for (const NamedEffect& effect : diagnosis.effects) {
+    const auto add = [&](bool first, const std::string& name, const std::string& value) {
+      rows.push_back({first ? effect.suspect.effect : "", name, value,
+                      first ? fmt::format("{:.1f}", effect.significance) : "",
+                      first ? alike_text(effect) : ""});
+    };
+    if (effect.mean)
+      add(true, effect.mean->name + ", mean", value_text(effect.mean->value, effect.mean->error, ""));
     for (std::size_t i = 0; i < effect.values.size(); ++i)
-      rows.push_back({i == 0 ? effect.suspect.effect : "", place_rows(effect) + effect.parameters[i].name,
-                      value_text(effect.values[i], effect.errors[i], effect.parameters[i].unit),
-                      i == 0 ? fmt::format("{:.1f}", effect.significance) : "",
-                      i == 0 ? fmt::format("{}", fmt::join(effect.group, ", ")) : ""});
+      add(i == 0 && !effect.mean, place_text(effect) + effect.parameters[i].name,
+          value_text(effect.values[i], effect.errors[i], effect.parameters[i].unit));
+  }
   return table({"effect", "parameter", "fitted", "standard deviations", "cannot be told from"}, rows);
 }
 

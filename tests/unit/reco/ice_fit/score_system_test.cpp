@@ -45,6 +45,7 @@ Eigen::MatrixXd places_of(const ClosedLight& light) {
 RunLight certain(const ClosedLight& light) {
   RunLight run;
   run.places = places_of(light);
+  run.symmetric.assign(3, 1);
   for (LightFold& fold : run.folds) {
     fold.counts = light.base / light.scale;
     fold.slopes = fold.counts.asDiagonal() * light.slopes;
@@ -195,6 +196,7 @@ RunLight simulated(const ClosedLight& light, const Noise& noise, std::mt19937_64
   std::normal_distribution<double> normal;
   RunLight run;
   run.places = places_of(light);
+  run.symmetric.assign(3, 1);
   for (LightFold& fold : run.folds) {
     fold.counts = draw(light.base / light.scale, noise.seen, random);
     fold.slopes = fold.counts.asDiagonal() * light.slopes;
