@@ -118,9 +118,10 @@ class Fit {
     const IceSolution solution = solve_ice(system, fit_.parameters, fit_.numbers,
                                            {options_.smoothness, options_.amplitude}, longest_step);
     double furthest = 0, squares = 0;
+    const double share = physical_share(solution.step);
     for (std::size_t p = 0; p < count(); ++p) {
       const auto i = static_cast<Eigen::Index>(p);
-      fit_.numbers[p] += solution.step(i);
+      fit_.numbers[p] += share * solution.step(i);
       const double pull = std::abs(solution.step(i)) / std::sqrt(solution.covariance(i, i));
       furthest = std::max(furthest, pull);
       squares += pull * pull;
@@ -134,6 +135,21 @@ class Fit {
     fit_.light_errors = solution.light_errors;
     const double mean = std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, count())));
     fit_.converged = mean < settled && furthest < settled_most;
+  }
+
+  // How much of a step leads to ice that can be: crystals must not scatter more than their layer does.
+  double physical_share(const Eigen::VectorXd& step) const {
+    constexpr double least = 1.0 / 64;
+    for (double share = 1;; share /= 2) {
+      std::vector<double> numbers = fit_.numbers;
+      for (std::size_t p = 0; p < count(); ++p) numbers[p] += share * step(static_cast<Eigen::Index>(p));
+      try {
+        with_parameters(base_, fit_.parameters, numbers);
+        return share;
+      } catch (const InputError&) {
+        if (share <= least) throw;
+      }
+    }
   }
 
   // By column of the system's parameters: families, and each parameter that has none.

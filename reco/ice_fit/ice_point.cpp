@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "data/base/error.h"
 #include "reco/ice_fit/run_likelihood.h"
 
 namespace floe {
@@ -38,6 +39,18 @@ Model IcePoint::moved(std::size_t parameter, double step) const {
   return with_parameters(base_, parameters_, moved);
 }
 
+Model IcePoint::moved_towards(std::size_t parameter, double& step) const {
+  constexpr int most_halvings = 5;
+  for (int i = 0;; ++i) {
+    try {
+      return moved(parameter, step);
+    } catch (const InputError&) {
+      if (i == most_halvings) throw;
+      step /= 2;
+    }
+  }
+}
+
 IcePoint::Light IcePoint::light(const RunRequest& request, const SimulatedRun& simulated, const RunBins& bins,
                                 double time_zero, const PairPlan& plan) const {
   Light result;
@@ -71,7 +84,8 @@ std::uint64_t IcePoint::add_pair(const RunRequest& request, const RunBins& bins,
   // It acts all over the ice: light dwells in it wherever it goes.
   for (LightFold& fold : light.folds) fold.dwell.col(column) = fold.counts;
   light.symmetric[parameter] = 0;
-  const double down = std::max(-reach, p.low - number), up = std::min(reach, p.high - number);
+  double down = std::max(-reach, p.low - number), up = std::min(reach, p.high - number);
+  const Model below = moved_towards(parameter, down), above = moved_towards(parameter, up);
   RunRequest less = request;
   const double share = plan.light * (down == 0 || up == 0 ? plan.one_sided : 1);
   less.photons *= share;
@@ -79,7 +93,7 @@ std::uint64_t IcePoint::add_pair(const RunRequest& request, const RunBins& bins,
   std::uint64_t propagated = 0;
   Eigen::VectorXd own[2] = {Eigen::VectorXd::Zero(bins.size()), Eigen::VectorXd::Zero(bins.size())};
   for (const double step : {down, up}) {
-    SimulatedRun simulated = simulate_run(moved(parameter, step), less);
+    SimulatedRun simulated = simulate_run(step == up ? above : below, less);
     delay(simulated, time_zero);
     propagated += simulated.propagated;
     const RunLight counted = count_light(simulated, bins, less.photons, 0);

@@ -32,6 +32,9 @@ class IcePoint {
   const Model& model() const { return model_; }
   // The model with one of the numbers changed.
   Model moved(std::size_t parameter, double step) const;
+  // By at most so much: the step is halved until it leads to ice that can be. Throws InputError where none
+  // does.
+  Model moved_towards(std::size_t parameter, double& step) const;
 
   // Counts and slopes in all parameters of a simulated run of this model, whose hits were moved by
   // `time_zero` [ns].
