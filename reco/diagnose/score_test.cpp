@@ -102,13 +102,16 @@ std::vector<TestedSuspect> prepare(const Survey& survey, const std::vector<Suspe
   return tested;
 }
 
+// Of slopes that are mostly noise, nobody knows what they are like.
+constexpr double least_known = 0.25;
+
 // Correlation of the change of light that `a` makes with the most alike that `b` can make.
 double likeness(const Score& a, const TestedSuspect& of_a, const TestedSuspect& b,
                 const MatrixXd& information) {
   const MatrixXd cross = combined(*b.suspect, *of_a.suspect, information);
   const VectorXd along = cross * a.amplitudes;
   const double own = a.amplitudes.dot(of_a.information * a.amplitudes);
-  if (!(own > 0)) return 0;
+  if (!(own > 0) || b.known_share() < least_known) return 0;
   return std::clamp(std::sqrt(std::max(0.0, along.dot(b.inverse_information * along)) / own), 0.0, 1.0);
 }
 
@@ -125,6 +128,9 @@ double TestedSuspect::gain(const VectorXd& columns, double floor) const {
   const bool allowed = ((at - low).array() >= 0).all() && ((high - at).array() >= 0).all();
   if (!allowed || size(at) < floor) return 0;
   return gap.dot(inverse_noise * gap) / 2;
+}
+double TestedSuspect::known_share() const {
+  return (inverse_noise * information).trace() / static_cast<double>(information.rows());
 }
 double TestedSuspect::expected_gain(const VectorXd& at) const {
   const VectorXd gap = information * at;

@@ -50,6 +50,9 @@ struct TestedSuspect {
   Eigen::VectorXd amplitudes(const Eigen::VectorXd& columns) const;
   double size(const Eigen::VectorXd& amplitudes) const;
   double gain(const Eigen::VectorXd& columns, double floor) const;
+  // How much of what its slopes should tell they do tell; below 1 by the noise of the simulation and of the
+  // slopes themselves.
+  double known_share() const;
   // Expected of light that has these amplitudes.
   double expected_gain(const Eigen::VectorXd& amplitudes) const;
 };

@@ -10,6 +10,11 @@ constexpr int draws = 30;  // for the expectation; its error is that of one meas
 
 }  // namespace
 
+double variance_of_difference(Eigen::Index bins, double light) {
+  const double of_data = light / (1 + light);
+  return static_cast<double>(bins) * (1 - of_data * of_data);
+}
+
 ModelJudge::ModelJudge(const Model& base, const FlasherData& data, const FirstLook& look,
                        const RunSettings& settings, std::uint64_t stream)
     : data_(data), settings_(settings), stream_(stream) {
@@ -18,9 +23,8 @@ ModelJudge::ModelJudge(const Model& base, const FlasherData& data, const FirstLo
     photons_.push_back(photons_wanted(run, look.hits_per_photon[r], settings_.light));
     views_.push_back(view_run(base, request(r, 0, photons_[r]), run, run.charge / look.hits_per_photon[r],
                               settings_.model_error));
-    // Half of a chi-square of all bins, of which the data, the same for both models, make this share.
-    const double light = photons_[r] * look.hits_per_photon[r] / run.charge, of_data = light / (1 + light);
-    squared_noise_ += static_cast<double>(views_[r].bins.size()) * (1 - of_data * of_data);
+    squared_noise_ +=
+        variance_of_difference(views_[r].bins.size(), photons_[r] * look.hits_per_photon[r] / run.charge);
   }
 }
 

@@ -12,6 +12,10 @@
 
 namespace floe {
 
+// Of -ln L of two simulations of equally good models with `light` times the data's light, in the same bins:
+// half a chi-square of all bins each, of which the data, the same for both, make a share.
+double variance_of_difference(Eigen::Index bins, double light);
+
 class ModelJudge {
  public:
   // Bins and light are those of `base`. `data`: screened, of which `look` was taken; `stream`: the first of

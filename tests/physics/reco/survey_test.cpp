@@ -1,0 +1,151 @@
+// What a survey says of a change of the model, against light that is simulated with that change.
+#include "reco/diagnose/survey.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "reco/diagnose/suspects.h"
+#include "reco/ice_fit/model_judge.h"
+
+namespace floe::test {
+namespace {
+
+constexpr std::uint64_t data_stream = std::uint64_t{1} << 50;
+
+class OfOneFlasher : public ::testing::Test {
+ protected:
+  static constexpr double photons_ = 2e8;
+  OfOneFlasher() {
+    run_.module = {36, 20};
+    run_.photons = photons_;
+    run_.oversize = settings_.oversize;
+    settings_.light = {4, 1e3, 1e12};
+    data_ = measured();
+    look_ = look_first(
+        model_, [&](std::size_t, double photons) { return request(photons, data_stream); }, data_);
+  }
+  RunRequest request(double photons, std::uint64_t stream) const {
+    return {run_, photons, settings_.oversize, settings_.seed, stream, 0};
+  }
+  FlasherData measured() const {
+    Event event;
+    event.id = "36,20";
+    event.flasher = run_;
+    for (const SimulatedHit& hit : simulate_run(model_, request(photons_, data_stream + 1)).hits)
+      event.hits.push_back(to_hit(hit, *model_.detector));
+    return flasher_data(*model_.detector, std::vector{event});
+  }
+
+  const Model model_ = load_model({});
+  RunSettings settings_;
+  FlasherRun run_;
+  FlasherData data_;
+  FirstLook look_;
+};
+
+class ASurvey : public OfOneFlasher {
+ protected:
+  static constexpr double more_ = 8;  // times the data's light, for the light of a change
+  ASurvey() {
+    for (const char* name : {"absorption-scale", "scattering-scale", "angular-acceptance", "flow-azimuth"})
+      parameters_.push_back(effect_parameter(name, model_));
+    survey_ = survey_data(model_, data_, look_, {.parameters = parameters_, .pair_light = 1}, settings_);
+  }
+  // The gap that light of this model leaves, without most of its noise: random numbers are the base's.
+  Eigen::VectorXd gap_of_light(const Model& model) const {
+    SurveyCounts counts = measured_counts(survey_);
+    counts[0].data.setZero();
+    for (const SimulatedHit& hit : simulate_run(model, request(more_ * photons_, data_stream + 2)).hits)
+      if (const int bin = survey_.runs[0].bins.bin(hit.module, hit.time); bin >= 0)
+        counts[0].data(bin) += 1 / more_;
+    return gap_of(survey_, counts);
+  }
+  Eigen::Index column(SurveyColumn::Kind kind, int string, int dom) const {
+    for (std::size_t c = 0; c < survey_.columns.size(); ++c) {
+      const SurveyColumn& column = survey_.columns[c];
+      if (column.kind == kind && column.string == string && column.dom == dom)
+        return static_cast<Eigen::Index>(c);
+    }
+    ADD_FAILURE() << "no such column";
+    return 0;
+  }
+  int brightest_other_string() const {
+    int best = 0;
+    double most = 0;
+    for (std::size_t c = 0; c < survey_.columns.size(); ++c) {
+      const SurveyColumn& column = survey_.columns[c];
+      const auto i = static_cast<Eigen::Index>(c);
+      if (column.kind != SurveyColumn::Kind::string_efficiency || column.string == run_.module.string)
+        continue;
+      if (survey_.information(i, i) > most) most = survey_.information(i, i), best = column.string;
+    }
+    return best;
+  }
+  // The gap is information times the change; how large the change is, in standard deviations, does not matter
+  // as long as it stays small.
+  void expect_found(const std::vector<std::string>& settings, Eigen::Index column, double change) const {
+    ModelRequest changed;
+    for (const std::string& text : settings) changed.with.push_back(parse_effect_setting(text));
+    const double found = (gap_of_light(load_model(changed)) - gap_of_light(model_))(column),
+                 expected = survey_.information(column, column) * change,
+                 noise = std::sqrt(2 / more_ * survey_.noise(column, column));
+    EXPECT_GT(std::abs(expected), 8 * noise) << "too small a change to be seen";
+    EXPECT_NEAR(found, expected, 0.1 * std::abs(expected) + 3 * noise) << settings.back();
+  }
+  std::vector<IceParameter> parameters_;
+  Survey survey_;
+};
+
+TEST_F(ASurvey, KnowsHowChangesShow) {
+  using Kind = SurveyColumn::Kind;
+  const int string = 36;  // the flasher's own, the brightest
+  const int other = brightest_other_string();
+  const std::string on_other = fmt::format("string={}", other);
+  expect_found({"absorption-scale.factor=1.1"}, 0, 0.1);
+  expect_found({"scattering-scale.factor=1.05"}, 1, 0.05);
+  expect_found({"angular-acceptance.slope=0.2"}, 2, 0.2);
+  expect_found({"flow-azimuth.azimuth=142"}, 3, 12);
+  expect_found({"string-efficiency.string=36", "string-efficiency.factor=1.2"},
+               column(Kind::string_efficiency, string, 0), 0.2);
+  expect_found({"module-efficiency.string=36", "module-efficiency.dom=21", "module-efficiency.factor=1.5"},
+               column(Kind::module_efficiency, string, 21), 0.5);
+  expect_found({"time-offset." + on_other, "time-offset.time=10"}, column(Kind::string_time, other, 0), 10);
+  expect_found({"geometry-offset." + on_other, "geometry-offset.x=3"}, column(Kind::string_x, other, 0), 3);
+}
+
+// Of the true model the gap is noise: of data and simulation, as much as the survey says.
+TEST_F(ASurvey, GapsOfTheTruthAreItsNoise) {
+  constexpr int draws = 400;
+  const auto size = static_cast<Eigen::Index>(parameters_.size());
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(size), squares = mean;
+  for (int d = 0; d < draws; ++d) {
+    const Eigen::VectorXd gap =
+        gap_of(survey_, drawn_counts(survey_, 1, static_cast<std::uint64_t>(d))).head(size);
+    mean += gap / draws, squares += gap.cwiseAbs2() / draws;
+  }
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const double variance = survey_.noise(i, i);
+    EXPECT_NEAR(mean(i), 0, 4 * std::sqrt(variance / draws)) << i;
+    EXPECT_NEAR((squares(i) - mean(i) * mean(i)) / variance, 1, 4 * std::sqrt(2.0 / draws) + 0.1) << i;
+  }
+}
+
+// Simulations of one model differ in how well they fit the same data, by as much as is said.
+TEST_F(ASurvey, SimulationsDifferByTheirNoise) {
+  constexpr int pairs = 100;
+  double squares = 0;
+  for (std::uint64_t i = 0; i < pairs; ++i) {
+    const SurveyCounts one = drawn_counts(survey_, 2, 2 * i);
+    SurveyCounts other = drawn_counts(survey_, 2, 2 * i + 1);
+    other[0].data = one[0].data;
+    squares += std::pow(neg_llh_of(survey_, one)[0] - neg_llh_of(survey_, other)[0], 2) / pairs;
+  }
+  const double light = (survey_.runs[0].counts.simulated[0] + survey_.runs[0].counts.simulated[1]).sum() /
+                       survey_.runs[0].counts.data.sum();
+  EXPECT_NEAR(squares / variance_of_difference(survey_.bins, light), 1, 4 * std::sqrt(2.0 / pairs));
+}
+
+}  // namespace
+}  // namespace floe::test
