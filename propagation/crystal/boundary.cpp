@@ -33,7 +33,7 @@ bool is_evanescent(const OutgoingWave& wave) {
 
 CrystalRay ray_along(const Vec3& direction, const Vec3& axis, Polarisation polarisation,
                      const CrystalIndices& indices) {
-  return {axis, wave_vector_along(direction, axis, polarisation, indices), direction, polarisation};
+  return {axis, wave_vector_of(direction, axis, polarisation, indices), direction, polarisation};
 }
 
 std::array<OutgoingWave, 4> outgoing_waves(const CrystalRay& incident, const Vec3& normal,

@@ -31,7 +31,7 @@ Fields fields_of(const ComplexVec3& k, const Vec3& axis, Polarisation polarisati
   return {norm * E, norm * cross(k, E)};
 }
 
-Vec3 inverse_permittivity(const Vec3& v, const Vec3& axis, const CrystalIndices& indices) {
+Vec3 extraordinary_product(const Vec3& v, const Vec3& axis, const CrystalIndices& indices) {
   const double ordinary = 1 / (indices.ordinary * indices.ordinary),
                extraordinary = 1 / (indices.extraordinary * indices.extraordinary);
   return extraordinary * v + (ordinary - extraordinary) * axis.dot(v) * axis;
@@ -40,13 +40,16 @@ Vec3 inverse_permittivity(const Vec3& v, const Vec3& axis, const CrystalIndices&
 Vec3 energy_direction(const Vec3& k, const Vec3& axis, Polarisation polarisation,
                       const CrystalIndices& indices) {
   if (polarisation == Polarisation::ordinary) return k.normalized();
-  return inverse_permittivity(k, axis, indices).normalized();
+  return extraordinary_product(k, axis, indices).normalized();
 }
 
-Vec3 wave_vector_along(const Vec3& direction, const Vec3& axis, Polarisation polarisation,
-                       const CrystalIndices& indices) {
+// Of an extraordinary wave, M k lies along the direction s: k ~ M^-1 s, and k.M k = 1 gives its length.
+Vec3 wave_vector_of(const Vec3& direction, const Vec3& axis, Polarisation polarisation,
+                    const CrystalIndices& indices) {
+  const double o = indices.ordinary * indices.ordinary, e = indices.extraordinary * indices.extraordinary;
   if (polarisation == Polarisation::ordinary) return indices.ordinary * direction;
-  return direction / std::sqrt(direction.dot(inverse_permittivity(direction, axis, indices)));
+  const Vec3 wave = e * direction + (o - e) * axis.dot(direction) * axis;
+  return wave / std::sqrt(direction.dot(wave));
 }
 
 // k = across + x normal. Of an extraordinary wave, k.M k = 1 is a quadratic equation for x; the energy flows
@@ -56,9 +59,9 @@ Complex normal_component(const Vec3& across, const Vec3& normal, double side, co
   // The principal root of a negative number is +i|.|: it decays along the normal, and -i|.| against it.
   if (polarisation == Polarisation::ordinary)
     return side * std::sqrt(Complex(indices.ordinary * indices.ordinary - across.squaredNorm()));
-  const Vec3 M_normal = inverse_permittivity(normal, axis, indices);
+  const Vec3 M_normal = extraordinary_product(normal, axis, indices);
   const double a = normal.dot(M_normal), b = across.dot(M_normal),
-               c = across.dot(inverse_permittivity(across, axis, indices)) - 1;
+               c = across.dot(extraordinary_product(across, axis, indices)) - 1;
   return (-b + side * std::sqrt(Complex(b * b - a * c))) / a;
 }
 

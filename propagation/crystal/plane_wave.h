@@ -26,16 +26,16 @@ struct Fields {
 Fields fields_of(const ComplexVec3& k, const Vec3& axis, Polarisation polarisation,
                  const CrystalIndices& indices);
 
-// M v of the extraordinary wave.
-Vec3 inverse_permittivity(const Vec3& v, const Vec3& axis, const CrystalIndices& indices);
+// M v, with the matrix M of the extraordinary wave. (Not epsilon^-1: along the c-axis |k| is n_o.)
+Vec3 extraordinary_product(const Vec3& v, const Vec3& axis, const CrystalIndices& indices);
 
 // Where the energy flows: the unit vector along k of an ordinary wave, M k of an extraordinary one.
 Vec3 energy_direction(const Vec3& k, const Vec3& axis, Polarisation polarisation,
                       const CrystalIndices& indices);
 
-// The wave vector of a wave that travels along the unit vector `direction`.
-Vec3 wave_vector_along(const Vec3& direction, const Vec3& axis, Polarisation polarisation,
-                       const CrystalIndices& indices);
+// The wave vector of the wave whose energy flows along the unit vector `direction`.
+Vec3 wave_vector_of(const Vec3& direction, const Vec3& axis, Polarisation polarisation,
+                    const CrystalIndices& indices);
 
 // The component of k along `normal` when the one across is `across`: of the wave whose energy flows along the
 // normal (`side` 1) or against it (-1), or, where the wave is evanescent, that decays on that side.
