@@ -180,15 +180,15 @@ BirefringenceNumbers DiffusionFit::numbers() const {
   return all;
 }
 
-DiffusionFit fit_diffusion(std::span<const PatternPoint> patterns, PatternEstimator estimator,
-                           double unit_crossings) {
+DiffusionFit fit_diffusion(std::span<const CrystalPattern> patterns, double grain,
+                           PatternEstimator estimator) {
   using enum PatternNumber;
   const bool core = estimator == PatternEstimator::core;
   const std::array sources{core ? core_sigma_x : sigma_x, core ? core_sigma_y : sigma_y,
                            core ? core_mean_x : mean_x};
   DiffusionFit result;
-  for (const PatternPoint& pattern : patterns) {
-    const double ratio = unit_crossings / pattern.crossings;
+  for (const CrystalPattern& pattern : patterns) {
+    const double ratio = 1000 * grain / pattern.length;
     for (std::size_t i = 0; i < 3; ++i) {
       const double scale = i < 2 ? std::sqrt(ratio) : ratio;
       const Estimate estimate = pattern.statistics[sources[i]];

@@ -1,7 +1,7 @@
 // From diffusion patterns to the 12 numbers of the two functions that propagation takes (arXiv:2107.08692):
 //   sigma_x, sigma_y = A exp(-B [atan(D sin eta)]^C),
 //   m_x = A atan(D sin eta cos eta) exp(-B sin eta + C cos eta),
-// per 1000 crossings, which is 1 m of ice at strength 1.
+// for a path of 1000 grains, which is 1 m of ice at strength 1.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "propagation/crystal/pattern.h"
+#include "propagation/crystal/pattern_grid.h"
 #include "propagation/ice/ice_model.h"
 
 namespace floe {
@@ -41,22 +41,17 @@ enum class PatternEstimator {
   all    // sigma_x, sigma_y, mean_x
 };
 
-struct PatternPoint {
-  double angle;  // [rad]
-  int crossings;
-  PatternStatistics statistics;
-};
-
 struct DiffusionFit {
-  std::array<std::vector<AngleValue>, 3> points;  // sigma_x, sigma_y, m_x, per `unit_crossings`
+  std::array<std::vector<AngleValue>, 3> points;  // sigma_x, sigma_y, m_x of 1000 grains
   std::array<FunctionFit, 3> functions;
   BirefringenceNumbers numbers() const;
 };
 inline constexpr std::array<std::string_view, 3> diffusion_names{"sigma_x", "sigma_y", "m_x"};
 
-// `unit_crossings`: what 1 m at strength 1 is; patterns of other numbers of crossings are scaled, widths with
-// the square root, deflections linearly.
-DiffusionFit fit_diffusion(std::span<const PatternPoint> patterns, PatternEstimator estimator,
-                           double unit_crossings = 1000);
+// `grain`: the mean distance between crossings that strength 1 makes 1 mm of (PatternGrid::grain) [m].
+// Patterns of other lengths than 1000 grains are scaled, widths with the root of the length, deflections
+// linearly.
+DiffusionFit fit_diffusion(std::span<const CrystalPattern> patterns, double grain,
+                           PatternEstimator estimator);
 
 }  // namespace floe
