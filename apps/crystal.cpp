@@ -228,8 +228,8 @@ void add_crystal(CLI::App& floe, const std::string& command_line) {
       "  floe crystal --elongation 1.4 --fabric 0.1,4 --grain 1mm --crossings 1000\n"
       "  floe crystal --fabric girdle --angles 0,30,60,90 -o patterns.h5 --json patterns.json\n"
       "  floe crystal --photons 2000 --scaling --picture patterns.svg\n"
-      "  floe crystal --elongation 1,1.4,2 --fabric isotropic --fabric 0.1,4 --photons 2000\n"
-      "  floe crystal --elongation 1.7 --grain 2mm --ice south-pole --into coarse-ice");
+      "  floe crystal --elongation 1,1.4,2 --fabric isotropic --fabric 0.1,4 --photons 1000\n"
+      "  floe crystal --elongation 1.7 --grain 2mm --photons 2000 --ice south-pole --into coarse-ice");
   app.callback([command] { run_crystal(*command); });
 }
 

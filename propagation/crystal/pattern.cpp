@@ -118,7 +118,8 @@ Numbers numbers_of(std::span<const WalkedPhoton> photons, double length) {
   double backward = 0;
   for (const WalkedPhoton& photon : photons) {
     const Vec3& n = photon.direction;
-    const double scale = 2 / std::max(1e-12, 1 + n.z());
+    const double across = n.head<2>().norm();
+    const double scale = across > 0 ? std::atan2(across, n.z()) / across : 1;
     x.deflection.push_back(scale * n.x()), x.shift.push_back(photon.position.x());
     y.deflection.push_back(scale * n.y()), y.shift.push_back(photon.position.y());
     if (n.z() < 0) ++backward;

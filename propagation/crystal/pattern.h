@@ -1,10 +1,11 @@
 // The diffusion pattern: where photons of one first direction end after many crossings, in numbers.
 //
-// A photon's deflection is a point (x, y) of the plane across its first direction: x towards the nearer flow
-// direction, by the stereographic projection p = 2 tan(theta/2), the inverse of the one with which
-// propagation turns photons (engine/birefringence.h). Patterns have a core and tails: a photon that meets a
-// boundary at a grazing angle may be reflected, and one such event turns it more than all others do. "All"
-// and "core" estimators differ, and are told apart here.
+// A photon's deflection is a point (x, y) of the plane across its first direction, x towards the nearer flow
+// direction, at the distance of the angle theta between first and last direction. (Propagation turns photons
+// with p = 2 tan(theta/2) instead, engine/birefringence.h: the same to 0.1% in the core, but without bound
+// where one photon comes back.) Patterns have a core and tails: a photon that meets a boundary at a grazing
+// angle may be reflected, and one such event turns it more than all others do. "All" and "core" estimators
+// differ, and are told apart here.
 #pragma once
 
 #include <array>

@@ -22,10 +22,11 @@ using Coordinates = Eigen::Vector4d;
 template <typename Scalar>
 using Numbers = std::array<Scalar, 4>;  // A, B, C, D
 
-// The coordinates that fits move in: as A, B, C, D, the functions are nearly degenerate.
+// The coordinates that fits move in, and their bounds: as A, B, C, D, the functions are nearly degenerate.
 // Width: ln of the value along the flow, ln of its fall to the value across, C, ln D.
 struct Width {
-  static constexpr Numbers<double> start{-2.5, 0, 2, 0};
+  inline static const Numbers<double> start{-2.5, 0, 2, 0}, low{-20, -10, 0.1, std::log(least_D)},
+      high{2, 5, 20, std::log(most_D)};
   template <typename Scalar>
   static Numbers<Scalar> numbers(const Scalar* q) {
     using std::atan, std::exp, std::pow;
@@ -41,7 +42,8 @@ struct Width {
 
 // Deflection: value at 45 deg in units of 0.001, B, C, ln D.
 struct Deflection {
-  static constexpr Numbers<double> start{1, 0, 1, 0};
+  inline static const Numbers<double> start{1, 0, 1, 0}, low{-1e3, -30, -30, std::log(least_D)},
+      high{1e3, 30, 30, std::log(most_D)};
   template <typename Scalar>
   static Numbers<Scalar> numbers(const Scalar* q) {
     using std::exp;
@@ -76,8 +78,10 @@ void build(ceres::Problem& problem, std::span<const AngleValue> points, Coordina
   using Cost = ceres::AutoDiffCostFunction<Residual<Function>, 1, 4>;
   for (const AngleValue& point : points)
     problem.AddResidualBlock(new Cost(new Residual<Function>{point}), nullptr, place.data());
-  problem.SetParameterLowerBound(place.data(), D_place, std::log(least_D));
-  problem.SetParameterUpperBound(place.data(), D_place, std::log(most_D));
+  for (int i = 0; i < 4; ++i) {
+    problem.SetParameterLowerBound(place.data(), i, Function::low[static_cast<std::size_t>(i)]);
+    problem.SetParameterUpperBound(place.data(), i, Function::high[static_cast<std::size_t>(i)]);
+  }
 }
 
 template <typename Function>
@@ -99,16 +103,17 @@ std::optional<Solution> solve(std::span<const AngleValue> points, double D, bool
   return Solution{place, summary.final_cost, hold};
 }
 
-// From several D, since small and large ones are different valleys; with D held where it would fall further.
+// From several D, since small and large ones are different valleys; with D held where it would go further.
 template <typename Function>
 Solution best_solution(std::span<const AngleValue> points) {
   std::optional<Solution> best;
   for (const double D : {0.1, 1.0, 5.0, 30.0})
     if (const auto found = solve<Function>(points, D, false); found && (!best || found->cost < best->cost))
       best = found;
-  if (const auto held = solve<Function>(points, least_D, true);
-      held && (!best || held->cost <= best->cost * (1 + 1e-6) + 1e-9))
-    best = held;
+  for (const double D : {least_D, most_D})
+    if (const auto held = solve<Function>(points, D, true);
+        held && (!best || held->cost <= best->cost * (1 + 1e-6) + 1e-9))
+      best = held;
   if (!best) throw NoResult("diffusion patterns: the function does not fit to the angles' values");
   return *best;
 }

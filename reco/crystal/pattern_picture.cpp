@@ -16,35 +16,63 @@ namespace {
 constexpr const char* grey = "#666666";
 constexpr double top = 92, sphere_radius = 215, sphere_x = 270, sphere_y = top + 235;
 constexpr double panel_x = 610, panel_width = 400, panel_height = 180, gap = 84;
-constexpr std::size_t drawn_patterns = 7, drawn_photons = 500;
+constexpr std::size_t drawn_patterns = 7, drawn_photons = 600;
 constexpr std::array<const char*, 7> colours{"#0b6fa4", "#d1495b", "#3c8d40", "#e08e1b",
                                              "#7a4fa3", "#2a9d8f", "#555555"};
 
-// The sphere seen along the horizontal direction across the flow: the flow to the right, z upwards.
-Svg::Point on_sphere(const Vec3& direction) {
-  return {sphere_x + sphere_radius * direction.x(), sphere_y - sphere_radius * direction.z()};
+// First directions lie on the equator, the flow at longitude 0; seen from longitude 45 deg, where all of them
+// face the viewer. The third component is towards the viewer.
+Vec3 seen(const Vec3& v) {
+  const double half = std::sqrt(0.5);
+  return {half * (v.x() - v.y()), v.z(), half * (v.x() + v.y())};
 }
 
-// A photon's direction in the crystal frame, had its first direction lain in the vertical plane of the flow.
-Vec3 in_plane_of_flow(double angle, const Vec3& direction) {
-  const Vec3 n(std::cos(angle), 0, std::sin(angle)), x(std::sin(angle), 0, -std::cos(angle)), y(0, -1, 0);
-  return direction.x() * x + direction.y() * y + direction.z() * n;
+Svg::Point on_sphere(const Vec3& direction) {
+  const Vec3 place = seen(direction);
+  return {sphere_x + sphere_radius * place.x(), sphere_y - sphere_radius * place.y()};
+}
+
+// From the pattern's own axes, x towards the flow, to the sphere's.
+Vec3 from_pattern(double angle, const Vec3& v) {
+  const Vec3 n(std::cos(angle), std::sin(angle), 0), x(std::sin(angle), -std::cos(angle), 0), y(0, 0, -1);
+  return v.x() * x + v.y() * y + v.z() * n;
+}
+
+// The part of a curve that faces the viewer.
+void draw_near_side(Svg& svg, const std::vector<Vec3>& curve, const Stroke& stroke) {
+  std::vector<Svg::Point> part;
+  for (const Vec3& place : curve) {
+    if (seen(place).z() >= 0) part.push_back(on_sphere(place));
+    if (seen(place).z() >= 0 && &place != &curve.back()) continue;
+    if (part.size() > 1) svg.polyline(part, stroke);
+    part.clear();
+  }
 }
 
 void draw_sphere(Svg& svg) {
+  const Stroke faint{"#e4e4e4", 1, ""};
+  for (int angle = 15; angle <= 165; angle += 15) {  // circles of equal angle to the flow
+    std::vector<Vec3> circle;
+    for (int turn = -90; turn <= 90; turn += 3)
+      circle.push_back({std::cos(angle * degree), std::sin(angle * degree) * std::cos(turn * degree),
+                        std::sin(angle * degree) * std::sin(turn * degree)});
+    draw_near_side(svg, circle, faint);
+  }
   std::vector<Svg::Point> rim;
   for (int turn = 0; turn <= 360; turn += 3)
-    rim.push_back(on_sphere({std::cos(turn * degree), 0, std::sin(turn * degree)}));
+    rim.push_back({sphere_x + sphere_radius * std::cos(turn * degree),
+                   sphere_y - sphere_radius * std::sin(turn * degree)});
   svg.polyline(rim, {"#999999", 1, ""});
-  // Circles of equal angle to the flow are lines in this view.
-  for (int angle = 15; angle < 90; angle += 15) {
-    const double x = std::cos(angle * degree), z = std::sin(angle * degree);
-    for (const double side : {1.0, -1.0})
-      svg.line(on_sphere({side * x, 0, z}), on_sphere({side * x, 0, -z}), {"#eeeeee", 1, ""});
-  }
-  svg.line(on_sphere({-1.04, 0, 0}), on_sphere({1.04, 0, 0}), {"#999999", 1, "3 4"});
-  const auto [x, y] = on_sphere({1.05, 0, 0});
-  svg.text({x, y + 4}, "flow", 12, Anchor::start, grey);
+  std::vector<Vec3> equator;
+  for (int angle = -45; angle <= 135; angle += 3)
+    equator.push_back({std::cos(angle * degree), std::sin(angle * degree), 0});
+  draw_near_side(svg, equator, {"#bbbbbb", 1, "3 4"});
+}
+
+void draw_flow(Svg& svg) {
+  const auto [x, y] = on_sphere({1, 0, 0});
+  svg.line({x, y - 118}, {x, y - 104}, {"#222222", 1.4, ""});
+  svg.text({x, y - 124}, "flow", 12.5, Anchor::middle, "#222222", true);
 }
 
 std::vector<std::size_t> chosen_patterns(std::size_t count) {
@@ -56,14 +84,12 @@ std::vector<std::size_t> chosen_patterns(std::size_t count) {
 
 void draw_pattern(Svg& svg, const CrystalPattern& pattern, const char* colour) {
   for (std::size_t i = 0; i < std::min(drawn_photons, pattern.photons.size()); ++i) {
-    const Vec3 direction = in_plane_of_flow(pattern.angle, pattern.photons[i].direction);
-    // The near half of the sphere; patterns are alike on both.
-    if (direction.y() <= 0) svg.circle(on_sphere(direction), 0.9, colour);
+    const Vec3 direction = from_pattern(pattern.angle, pattern.photons[i].direction);
+    if (seen(direction).z() >= 0) svg.circle(on_sphere(direction), 0.9, colour);
   }
-  const Vec3 label = 1.08 * in_plane_of_flow(pattern.angle, {0, 0, 1});
-  const auto [x, y] = on_sphere(label);
-  svg.text({x, y + 4}, fmt::format("{:.0f}\u00b0", pattern.angle / degree), 11,
-           pattern.angle < 80 * degree ? Anchor::start : Anchor::middle, colour);
+  const auto [x, y] = on_sphere(from_pattern(pattern.angle, {0, 0, 1}));
+  svg.text({x, y + 108}, fmt::format("{:g}\u00b0", pattern.angle / degree), 12.5, Anchor::middle, colour,
+           true);
 }
 
 struct Panel {
@@ -176,10 +202,12 @@ std::string pattern_picture(const CrystalStudy& study, PatternEstimator estimato
                   study.grid.crossings, study.grid.photons, core ? "the core's" : "all"),
       12.5, Anchor::start, grey);
   draw_sphere(svg);
+  draw_flow(svg);
   const auto chosen = chosen_patterns(study.patterns.size());
   for (std::size_t i = 0; i < chosen.size(); ++i)
     draw_pattern(svg, study.patterns[chosen[i]], colours[i % colours.size()]);
-  svg.text({sphere_x, low + 60}, "Photons on the sphere, seen across the flow", 12.5, Anchor::middle);
+  svg.text({sphere_x, low + 60}, "Directions at the end, by angle to the flow at the start", 12.5,
+           Anchor::middle);
   const auto& fit = core ? study.core : study.all;
   if (fit) {
     draw_fits(svg, *fit);

@@ -7,9 +7,9 @@
 
 namespace floe {
 
-// SVG text. On the sphere, seen across the flow, the photons of every third angle or so, each pattern around
-// its first direction; beside it m_x, sigma_x and sigma_y with their errors, the fitted functions and those
-// of SpiceBFR v2. `estimator`: which values are drawn.
+// SVG text. On the sphere the photons of every third angle or so, each pattern around its first direction,
+// seen from 45 deg to the flow; beside it m_x, sigma_x and sigma_y with their errors, the fitted functions
+// and those of SpiceBFR v2. `estimator`: which values are drawn.
 std::string pattern_picture(const CrystalStudy& study, PatternEstimator estimator);
 
 }  // namespace floe

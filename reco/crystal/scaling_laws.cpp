@@ -1,6 +1,7 @@
 #include "reco/crystal/scaling_laws.h"
 
 #include <cmath>
+#include <limits>
 
 namespace floe {
 
@@ -16,16 +17,17 @@ Estimate ratio_of(const Estimate& value, const Estimate& expected) {
 
 void compare(const CrystalPattern& shorter, const CrystalPattern& whole, std::vector<ScalingCheck>& checks) {
   const double share = static_cast<double>(shorter.crossings) / whole.crossings;
-  const auto add = [&](PatternNumber number, double factor) {
+  using enum PatternNumber;
+  const auto add = [&](PatternNumber number, double factor, double largest_error) {
     Estimate expected = whole.statistics[number];
     expected = {factor * expected.value, factor * expected.error};
     const Estimate ratio = ratio_of(shorter.statistics[number], expected);
-    if (number != PatternNumber::core_mean_x || ratio.error < 0.1)
-      checks.push_back({whole.angle, shorter.crossings, number, ratio});
+    if (ratio.error < largest_error) checks.push_back({whole.angle, shorter.crossings, number, ratio});
   };
-  add(PatternNumber::core_sigma_x, std::sqrt(share));
-  add(PatternNumber::core_sigma_y, std::sqrt(share));
-  add(PatternNumber::core_mean_x, share);
+  constexpr double any = std::numeric_limits<double>::infinity(), known = 0.2;
+  for (const PatternNumber width : {core_sigma_x, core_sigma_y, sigma_x, sigma_y})
+    add(width, std::sqrt(share), any);
+  for (const PatternNumber deflection : {core_mean_x, mean_x}) add(deflection, share, known);
 }
 
 }  // namespace
