@@ -1,6 +1,7 @@
 // floe crystal: what grains of ice do to light, from first principles.
 #include <fmt/format.h>
 
+#include <limits>
 #include <memory>
 
 #include "apps/commands.h"
@@ -11,6 +12,7 @@
 #include "apps/option_values.h"
 #include "apps/planned_output.h"
 #include "apps/progress_bar.h"
+#include "data/base/atomic_file.h"
 #include "data/base/error.h"
 #include "reco/crystal/pattern_file.h"
 #include "reco/crystal/pattern_picture.h"
@@ -23,7 +25,7 @@ constexpr std::int64_t most_photons = 10'000'000, most_crossings = 1'000'000;
 
 struct CrystalCommand {
   std::string command;
-  std::string elongations = "1.4", grain = "1mm", estimator = "core";
+  std::string elongations = "1.4", grain = "1mm", estimator = "all";
   std::vector<std::string> fabrics{"0.1,4"};
   std::optional<std::string> axes, angles, output, picture;
   double wavelength = 405;
@@ -57,7 +59,7 @@ std::vector<NamedShape> shapes_of(const CrystalCommand& command) {
 PatternEstimator estimator_of(const CrystalCommand& command) {
   if (command.estimator == "core") return PatternEstimator::core;
   if (command.estimator == "all") return PatternEstimator::all;
-  throw UsageError(fmt::format("--estimator: found \"{}\"; expected core or all", command.estimator));
+  throw UsageError(fmt::format("--estimator: found \"{}\"; expected all or core", command.estimator));
 }
 
 // Everything of the grid but fabric and shape.
@@ -96,13 +98,10 @@ void check_usage(const CrystalCommand& command, const std::vector<Planned>& plan
   if (command.picture && !command.picture->ends_with(".svg"))
     throw UsageError(
         fmt::format("--picture: found \"{}\"; expected a name that ends in .svg", *command.picture));
-  for (const char* option : {"--picture", "--into"}) {
-    const bool given =
-        option == std::string("--into") ? command.ice.folder.has_value() : command.picture.has_value();
-    if (given && planned.size() > 1)
-      throw UsageError(
-          fmt::format("{} holds one kind of ice; --elongation and --fabric name {}", option, planned.size()));
-  }
+  const char* of_one = command.picture ? "--picture" : command.ice.folder ? "--into" : nullptr;
+  if (of_one && planned.size() > 1)
+    throw UsageError(
+        fmt::format("{} is of one kind of ice; --elongation and --fabric name {}", of_one, planned.size()));
   if (command.ice.folder && planned.front().grid.angles.size() < 5)
     throw UsageError(fmt::format("--into needs 5 --angles or more to fit the 12 numbers to; found {}",
                                  planned.front().grid.angles.size()));
@@ -201,10 +200,11 @@ void add_walk_options(CLI::App& app, CrystalCommand& command) {
       ->default_str("0");
   add_run_options(app, command.run);
   app.add_flag("--scaling", command.scaling, "Check how patterns grow with the crossings, on shorter paths");
-  app.add_option(
-         "--estimator", command.estimator,
-         "Widths and deflection, of --picture, --into and libraries, from the core or from all photons")
-      ->type_name("core|all")
+  app.add_option("--estimator", command.estimator,
+                 "Of --picture, --into and libraries: widths and deflection of all photons, which scale with "
+                 "the path "
+                 "as propagation takes it, or of the core")
+      ->type_name("all|core")
       ->capture_default_str();
 }
 

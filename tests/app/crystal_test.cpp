@@ -87,7 +87,7 @@ TEST_F(Crystal, WritesIceThatTheRestReads) {
   floe_well(quick + "--grain 2mm --ice south-pole --into coarse --json p.json --quiet");
   const IceTables tables = read_ice_tables(folder_.path() / "coarse");
   ASSERT_TRUE(tables.configuration.birefringence.has_value());
-  const Json fitted = json_of("p.json")["ice"][0]["fit_core"]["sigma_y"]["values"];
+  const Json fitted = json_of("p.json")["ice"][0]["fit_all"]["sigma_y"]["values"];
   EXPECT_EQ(tables.configuration.birefringence->sigma_y.C, fitted["C"].get<double>());
   for (const IceLayerRow& row : tables.layers) EXPECT_DOUBLE_EQ(row.birefringence_strength, 0.5);
   EXPECT_EQ(run_floe(folder_.path(), "info --ice coarse --detector ic86").code, 0);
@@ -119,7 +119,7 @@ const WrongCase wrong_cases[] = {
     {"elongation", " --elongation 0", 2, "--elongation"},
     {"angles", " --angles 30,10", 2, "rising angles"},
     {"photons", " --photons 10", 2, "--photons"},
-    {"estimator", " --estimator best", 2, "core or all"},
+    {"estimator", " --estimator best", 2, "all or core"},
     {"picture", " --picture p.png", 2, ".svg"},
     {"picture_of_many", " --elongation 1,2 --picture p.svg", 2, "one kind of ice"},
     {"into_with_few_angles", " --angles 0,45,90 --into new", 2, "5 --angles"},
