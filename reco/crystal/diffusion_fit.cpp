@@ -25,8 +25,8 @@ using Numbers = std::array<Scalar, 4>;  // A, B, C, D
 // The coordinates that fits move in, and their bounds: as A, B, C, D, the functions are nearly degenerate.
 // Width: ln of the value along the flow, ln of its fall to the value across, C, ln D.
 struct Width {
-  inline static const Numbers<double> start{-2.5, 0, 2, 0}, low{-20, -10, 0.1, std::log(least_D)},
-      high{2, 5, 20, std::log(most_D)};
+  inline static const Numbers<double> start{-2.5, 0, 2, 0}, low{-20, -10, 0.5, std::log(least_D)},
+      high{2, 5, 6, std::log(most_D)};
   template <typename Scalar>
   static Numbers<Scalar> numbers(const Scalar* q) {
     using std::atan, std::exp, std::pow;
@@ -42,8 +42,8 @@ struct Width {
 
 // Deflection: value at 45 deg in units of 0.001, B, C, ln D.
 struct Deflection {
-  inline static const Numbers<double> start{1, 0, 1, 0}, low{-1e3, -30, -30, std::log(least_D)},
-      high{1e3, 30, 30, std::log(most_D)};
+  inline static const Numbers<double> start{1, 0, 1, 0}, low{-1e3, -6, -6, std::log(least_D)},
+      high{1e3, 6, 6, std::log(most_D)};
   template <typename Scalar>
   static Numbers<Scalar> numbers(const Scalar* q) {
     using std::exp;

@@ -30,6 +30,8 @@ struct FunctionFit {
   double worst = 0;  // largest distance of a point from the curve, in units of the largest value
 };
 
+// C of widths is sought in [0.5, 6], B and C of the deflection in [-6, 6]: where there is next to nothing to
+// describe, as in spheres without fabric, the points tell no exponent, and huge ones that cancel would do.
 // Least squares with Ceres, of points whose error is above 0. Errors of the numbers are those of the points'
 // errors, whatever chi-square is. Throws NoResult with fewer than 5 such points, or without convergence.
 FunctionFit fit_sigma(std::span<const AngleValue> points);
