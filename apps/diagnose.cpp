@@ -67,11 +67,15 @@ Json step_json(const DiagnosisStep& step) {
                               {"significance", sigmas_of(effect.ln_p)},
                               {"changes_light_by", effect.best.size},
                               {"likeness_to_first", effect.likeness}});
-  for (const Trial& trial : step.trials)
+  for (const Trial& trial : step.trials) {
     json["fits"].push_back({{"effect", trial.suspect.effect},
                             {"place", trial.suspect.place},
                             {"parameters", trial.parameters.size()},
-                            {"neg_llh", trial.neg_llh}});
+                            {"neg_llh", trial.neg_llh},
+                            {"chi_square", trial.chi_square}});
+    if (trial.lost)
+      json["fits"].back()["lost"] = {{"winner_adds", trial.lost->winner}, {"adds", trial.lost->loser}};
+  }
   for (const Region& region : step.where.regions) json["where"].push_back(region_json(region));
   return json;
 }

@@ -35,12 +35,8 @@ struct FitIceCommand {
 };
 
 DepthRange depth_range(const FitIceCommand& command, const Detector& detector, const FlasherData& data) {
-  DepthRange range{1e9, -1e9, command.layers};
-  for (const RunData& run : data.runs) {
-    const double depth = flasher_depth(run, detector);
-    range.top = std::min(range.top, depth - beyond_flashers);
-    range.bottom = std::max(range.bottom, depth + beyond_flashers);
-  }
+  const FlasherDepths flashers = flasher_depths(data, detector);
+  DepthRange range{flashers.shallowest - beyond_flashers, flashers.deepest + beyond_flashers, command.layers};
   if (!command.depths) return range;
   std::tie(range.top, range.bottom) = parse_depths(*command.depths);
   return range;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "data/base/constants.h"
 #include "data/event.h"
 #include "geometry/detector.h"
 
@@ -80,10 +81,11 @@ class HighQeRatio {
 };
 HighQeRatio read_high_qe_ratio(const std::filesystem::path& wv_rde);
 
-// Whether the main cable, a vertical cylinder of cable_radius that touches the module at
+// Whether the main cable, a vertical cylinder of radius `radius` [m] that touches the module at
 // `cable_azimuth` [rad], hides the module from a photon: true when the line backwards from its landing
 // point meets the cable. `inward`: direction from the landing point to the centre.
-bool cable_shadows(double cable_azimuth, const Vec3& photon_direction, const Vec3& inward);
+bool cable_shadows(double cable_azimuth, const Vec3& photon_direction, const Vec3& inward,
+                   double radius = cable_radius);
 
 // How the modules of a detector accept light: one value, part of a Model.
 struct ModuleAcceptance {
@@ -91,6 +93,7 @@ struct ModuleAcceptance {
   AngularAcceptance angular = AngularAcceptance::polynomial(1, {1});
   WavelengthSpectrum spectrum{{{0, 300}, {1, 600}}};  // Cherenkov light as a nominal module accepts it
   std::optional<HighQeRatio> high_qe;                 // absent: high-QE modules differ by efficiency only
+  double cable_radius = floe::cable_radius;           // of the main cables [m]; 0: they hide nothing
 };
 
 // The built-in acceptance: nominal IceCube module, from published curves, with its sources.

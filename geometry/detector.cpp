@@ -78,6 +78,7 @@ std::string checksum(const std::vector<Module>& modules, const std::map<int, Eig
     hasher.add(module.relative_efficiency).add(std::int64_t{module.high_qe_spectrum});
     hasher.add(std::int64_t{module.on}).add(std::int64_t{module.cable_azimuth.has_value()});
     hasher.add(module.cable_azimuth.value_or(0));
+    if (module.clock_offset != 0) hasher.add("clock").add(module.clock_offset);
   }
   for (const auto& [string, centre] : strings)
     hasher.add(std::int64_t{string}).add(centre.x()).add(centre.y());

@@ -19,6 +19,7 @@ struct Module {
   bool on = true;                       // switched off modules never see light
   std::optional<double> cable_azimuth;  // of the main cable seen from the module [rad]; none: no cable
   Vec3 up_axis = Vec3::UnitZ();         // of the module; the photomultiplier looks against it
+  double clock_offset = 0;              // of its clock: later than the light, by so much, are its hits [ns]
 };
 
 // "module STRING,DOM", as messages name it.

@@ -23,6 +23,7 @@
   EFFECT(scattering_function)   \
   EFFECT(hole_ice)              \
   EFFECT(angular_acceptance)    \
+  EFFECT(cable_shadow)          \
   EFFECT(module_efficiency)     \
   EFFECT(string_efficiency)     \
   EFFECT(overall_efficiency)    \

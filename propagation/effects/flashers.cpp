@@ -19,20 +19,6 @@ class FlasherProfile final : public Effect {
   }
 };
 
-class TimeOffset final : public Effect {
- public:
-  std::string name() const override { return "time-offset"; }
-  std::string description() const override { return "Flashers flash earlier or later"; }
-  std::string source() const override { return "arXiv:1612.05093"; }
-
-  std::vector<EffectParameter> parameters(const ModelParts&) const override {
-    return {{"time", "ns", "added to the time at which flashers flash", 0, -1000, 1000}};
-  }
-  void apply(std::span<const double> values, ModelParts& model) const override {
-    model.sources.time_offset += values[0];
-  }
-};
-
 class FlasherBrightness final : public Effect {
  public:
   std::string name() const override { return "flasher-brightness"; }
@@ -51,10 +37,6 @@ class FlasherBrightness final : public Effect {
 
 const Effect& flasher_profile_effect() {
   static const FlasherProfile effect;
-  return effect;
-}
-const Effect& time_offset_effect() {
-  static const TimeOffset effect;
   return effect;
 }
 const Effect& flasher_brightness_effect() {

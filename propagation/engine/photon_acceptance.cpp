@@ -45,7 +45,8 @@ bool PhotonAcceptance::accepts(const ModuleCrossing& crossing, const Vec3f& dire
   const double kept = relative_efficiency(module, wavelength) / largest_efficiency_at(wavelength) *
                       acceptance_.angular.probability(travel, inward, module.up_axis);
   if (!(u < kept)) return false;
-  return !module.cable_azimuth || !cable_shadows(*module.cable_azimuth, travel, inward);
+  return !module.cable_azimuth || acceptance_.cable_radius == 0 ||
+         !cable_shadows(*module.cable_azimuth, travel, inward, acceptance_.cable_radius);
 }
 
 }  // namespace floe

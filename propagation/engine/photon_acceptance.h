@@ -24,6 +24,8 @@ class PhotonAcceptance {
   // Draws one number from the photon's stream.
   bool accepts(const ModuleCrossing& crossing, const Vec3f& direction, float wavelength,
                RandomStream& random) const;
+  // What a module's clock adds to the times of its hits [ns].
+  float clock_offset(std::uint32_t module) const { return static_cast<float>(modules_[module].clock_offset); }
 
  private:
   double relative_efficiency(const Module& module, double wavelength) const;

@@ -248,7 +248,8 @@ class PlainWalker : public PhotonWalker, public PathTracer {
       if (crossing.distance > back_home) break;
       const auto wavelength = static_cast<float>(photon.wavelength);
       if (acceptance_.accepts(crossing, direction, wavelength, random)) {
-        const auto time = static_cast<float>(photon.time + crossing.distance / speed);
+        const auto time = static_cast<float>(photon.time + crossing.distance / speed) +
+                          acceptance_.clock_offset(crossing.module);
         task.hits.push_back({crossing.module, time, wavelength, direction, crossing.inward, photon.id,
                              weight(photon, piece, crossing.distance, task.batch.absorption_stretch)});
         if (task.trace) tell_hit(photon, piece, crossing.distance, task.hits.back(), *task.trace);

@@ -166,7 +166,8 @@ class VectorWalker : public PhotonWalker {
       if (work.emitter == crossing.module) continue;
       if (crossing.distance > back_home) return false;
       if (acceptance_.accepts(crossing, direction, lanes.wavelength[lane], random)) {
-        const float time = lanes.time[lane] + crossing.distance * lanes.slowness[lane];
+        const float time = lanes.time[lane] + crossing.distance * lanes.slowness[lane] +
+                           acceptance_.clock_offset(crossing.module);
         const std::uint64_t photon = work.batch.first + static_cast<std::uint64_t>(lanes.number[lane]);
         work.hits.push_back({crossing.module, time, lanes.wavelength[lane], direction, crossing.inward,
                              photon, weight(work, lane, crossing.distance)});

@@ -14,7 +14,6 @@ namespace floe {
 
 namespace {
 
-constexpr double alike = 0.9;  // correlation of effects that the data cannot tell apart
 constexpr std::size_t largest_group = 3;
 // Far from the streams of surveys.
 constexpr std::uint64_t data_stream = std::uint64_t{1} << 46, trial_stream = std::uint64_t{1} << 47;
@@ -39,13 +38,8 @@ class Trials {
           return request;
         },
         data);
-    double shallowest = 1e9, deepest = -1e9;
-    for (const RunData& run : data.runs) {
-      const double depth = flasher_depth(run, *base_.detector);
-      shallowest = std::min(shallowest, depth), deepest = std::max(deepest, depth);
-    }
-    const SuspectPlan plan = plan_suspects(base_, shallowest, deepest);
-    SurveyPlan survey_plan{.parameters = plan.parameters};
+    const SuspectPlan plan = plan_suspects(base_, flasher_depths(data, *base_.detector));
+    SurveyPlan survey_plan{.parameters = plan.parameters, .pair_light = options_.pair_light};
     const Survey survey = survey_data(base_, data, look, survey_plan, options_,
                                       [this](double fraction, const std::string& text) {
                                         if (progress_) progress_(0.3 * fraction, "survey: " + text);
@@ -53,7 +47,7 @@ class Trials {
     const std::vector<Suspect> suspects = suspects_of(survey, plan);
     const ScoreTester tester(survey, suspects, plan.parameters, options_.draws, options_.seed);
 
-    const std::vector<HiddenEffect> hidden = draw_hidden(tester, plan);
+    const std::vector<HiddenEffect> hidden = draw_hidden(tester);
     for (std::size_t t = 0; t < hidden.size(); ++t) {
       if (progress_)
         progress_(0.3 + 0.7 * static_cast<double>(t) / static_cast<double>(hidden.size()),
@@ -80,7 +74,7 @@ class Trials {
   }
 
   // Of each effect some, at places drawn at random, as strong as wanted and as its parameters allow.
-  std::vector<HiddenEffect> draw_hidden(const ScoreTester& tester, const SuspectPlan&) {
+  std::vector<HiddenEffect> draw_hidden(const ScoreTester& tester) {
     std::map<std::string, std::vector<const TestedSuspect*>> by_effect;
     for (const TestedSuspect& suspect : tester.suspects())
       by_effect[suspect.suspect->effect].push_back(&suspect);
@@ -144,11 +138,8 @@ class Trials {
                const Eigen::VectorXd& amplitudes) const {
     if (place.suspect->place.count("depth")) return std::abs(amplitudes(0)) < std::log(2.5);
     for (std::size_t i = 0; i < parameters.size(); ++i) {
-      const double null_value = place.suspect->place.empty()
-                                    ? effect_parameter(parameters[i].name, base_).start
-                                : parameters[i].name.ends_with("factor") ? 1
-                                                                         : 0;
-      const double is = parameters[i].start - null_value, wanted = amplitudes(static_cast<Eigen::Index>(i));
+      const double is = parameters[i].start - null_number(parameters[i], base_),
+                   wanted = amplitudes(static_cast<Eigen::Index>(i));
       if (std::abs(is - wanted) > 0.05 * std::abs(wanted)) return false;
     }
     return true;
@@ -173,7 +164,8 @@ class Trials {
     trial.named_text = text_of(first.best.suspect);
     trial.significance = sigmas_of(first.ln_p);
     for (const EffectScore& effect : test.effects)
-      if (&effect == &first || effect.likeness > alike) trial.group.push_back(effect.best.suspect.effect);
+      if (&effect == &first || effect.likeness > inseparable)
+        trial.group.push_back(effect.best.suspect.effect);
     return trial;
   }
 

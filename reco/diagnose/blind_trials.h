@@ -23,6 +23,8 @@ struct BlindTrialOptions : RunSettings {
   double least = 5, most = 12;  // expected significance of what is hidden, in standard deviations
   double alpha = 0.01, floor = 0.005;
   int draws = 300;
+  // Of the survey (see PairPlan): it serves all trials, so that its slopes may be good.
+  double pair_light = 2;
 };
 
 // What a trial hides; nothing when `effect` is empty.

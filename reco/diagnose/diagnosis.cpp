@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -15,11 +16,11 @@ namespace floe {
 namespace {
 
 constexpr std::uint64_t look_stream = std::uint64_t{1} << 44, judge_stream = std::uint64_t{1} << 45;
-constexpr double alike = 0.9;           // correlation of effects that the data cannot tell apart
 constexpr double leading_share = 0.35;  // of the best gain: suspects that are fitted, too
-constexpr double as_good = 3;           // of -ln L: the noise of simulations
 constexpr std::size_t most_trials = 3;
-constexpr int rounds = 4, rounds_of_folds = 2;
+constexpr double light_of_contest = 3;   // times that of other fits: rivals are alike
+constexpr double confirmed_share = 0.4;  // of the gain that a score promised, by a fit
+constexpr int rounds = 4, rounds_of_folds = 2, rounds_of_contest = 5;
 constexpr double still_there = 3;  // standard deviations, of effects when another one has come in
 
 void check_options(const DiagnosisOptions& options, std::size_t runs) {
@@ -93,12 +94,7 @@ class Diagnoser {
   bool look_at(const Model& model, int step) {
     const double from = begin(step), length = begin(step + 1) - from;
     stage(from, from + length * 0.4, step == 0 ? "looking for a gap" : "looking again");
-    double shallowest = 1e9, deepest = -1e9;
-    for (const RunData& run : data_.runs) {
-      const double depth = flasher_depth(run, *model.detector);
-      shallowest = std::min(shallowest, depth), deepest = std::max(deepest, depth);
-    }
-    const SuspectPlan plan = plan_suspects(model, shallowest, deepest);
+    const SuspectPlan plan = plan_suspects(model, flasher_depths(data_, *model.detector));
     SurveyPlan survey_plan{.parameters = plan.parameters};
     survey_plan.stream = static_cast<std::uint64_t>(step);
     const Survey survey = survey_data(model, data_, look_, survey_plan, options_, part());
@@ -131,9 +127,11 @@ class Diagnoser {
     now.p_of_fit = normal_tail((now.neg_llh - now.expected) / now.scatter);
   }
 
-  IceFit fit(const FlasherData& data, const std::vector<IceParameter>& parameters, int most_rounds) {
+  IceFit fit(const FlasherData& data, const std::vector<IceParameter>& parameters, int most_rounds,
+             double more_light = 1) {
     IceFitOptions options;
     static_cast<RunSettings&>(options) = options_;
+    options.light.light *= more_light;
     options.most_rounds = most_rounds;
     options.judged = false;  // the same for all rivals, below
     return fit_ice(base_, data, parameters, options, part());
@@ -153,55 +151,65 @@ class Diagnoser {
     return all;
   }
 
-  // Fits the leading suspects and adds the best, when it is better than nothing.
+  // Fits the leading suspects and adds the best, when its fit confirms what its score said.
   bool add_effect(DiagnosisStep& now, int step) {
     if (now.scores.effects.empty() || now.scores.p_value >= options_.alpha / 2) return false;
-    const auto& effects = now.scores.effects;
-    std::vector<IceFit> fits;
+    std::vector<Candidate> candidates = fit_leading(now, step);
+    if (candidates.empty()) return false;
+    const double from = begin(step), to = begin(step + 1);
+    stage(from + (to - from) * 0.8, to, "which of them is missing");
+    hold_contest(
+        base_, judge_->noise_of_differences(),
+        [this](const auto& parameters) {
+          return fit(data_, with(parameters), rounds_of_contest, light_of_contest);
+        },
+        candidates);
+    for (const Candidate& candidate : candidates) now.trials.push_back(candidate.trial);
+    if (!is_confirmed(now)) return false;
+    accept(now, candidates.front().fit);
+    return true;
+  }
+
+  std::vector<Candidate> fit_leading(const DiagnosisStep& now, int step) {
+    std::vector<Candidate> candidates;
     const double from = begin(step), length = begin(step + 1) - from;
-    for (const EffectScore& score : effects) {
-      const bool leads = score.best.gain >= leading_share * effects.front().best.gain && score.best.gain > 5;
-      if (!leads || fits.size() == most_trials) continue;
-      const double done = 0.4 + 0.6 * static_cast<double>(fits.size()) / most_trials;
-      stage(from + length * done, from + length * (done + 0.2), "fitting " + text_of(score.best.suspect));
-      Trial trial;
-      trial.suspect = score.best.suspect;
-      trial.parameters = fit_parameters(score.best.suspect, score.best.amplitudes, base_);
-      if (is_in_the_model(score.best.suspect)) continue;
+    for (const EffectScore& score : now.scores.effects) {
+      const Score& suspect = score.best;
+      const bool leads =
+          suspect.gain >= leading_share * now.scores.effects.front().best.gain && suspect.gain > 5;
+      if (!leads || candidates.size() == most_trials || is_in_the_model(suspect.suspect)) continue;
+      const double done = 0.4 + 0.4 * static_cast<double>(candidates.size()) / most_trials;
+      stage(from + length * done, from + length * (done + 0.13), "fitting " + text_of(suspect.suspect));
       try {
-        fits.push_back(fit(data_, with(trial.parameters), rounds));
-        trial.neg_llh = neg_llh_of_all(with_parameters(base_, fits.back().parameters, fits.back().numbers));
+        candidates.push_back(fitted(suspect));
       } catch (const Error&) {
         // No physical ice on its way: it is not what is missing.
-        if (fits.size() > now.trials.size()) fits.pop_back();
-        continue;
       }
-      now.trials.push_back(std::move(trial));
     }
-    if (fits.empty()) return false;
-    // Half a unit of -ln L for each parameter, and one more for a place that was found.
-    const auto cost = [&](std::size_t i) {
-      return now.trials[i].neg_llh + 0.5 * static_cast<double>(now.trials[i].parameters.size());
-    };
-    std::vector<std::size_t> order(fits.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(), [&](auto a, auto b) { return cost(a) < cost(b); });
-    // Fits that are as good within the noise of simulations are told apart by the scores, whose order they
-    // have.
-    std::size_t best = order.front();
-    for (std::size_t i = 0; i < fits.size(); ++i)
-      if (cost(i) < cost(order.front()) + as_good) {
-        best = i;
-        break;
-      }
-    std::stable_partition(order.begin(), order.end(), [&](std::size_t i) { return i == best; });
-    const double gain = neg_llh_of_all(current()) - now.trials[best].neg_llh;
-    if (gain < 3 + 0.5 * static_cast<double>(now.trials[best].parameters.size())) return false;
-    accept(now, best, fits[best], gain);
-    std::vector<Trial> sorted;
-    for (const std::size_t i : order) sorted.push_back(std::move(now.trials[i]));
-    now.trials = std::move(sorted);
-    return true;
+    return candidates;
+  }
+
+  Candidate fitted(const Score& score) {
+    Candidate candidate;
+    Trial& trial = candidate.trial;
+    trial.suspect = score.suspect;
+    trial.parameters = fit_parameters(score.suspect, score.amplitudes, base_);
+    candidate.fit = fit(data_, with(trial.parameters), rounds);
+    trial.neg_llh = neg_llh_of_all(with_parameters(base_, candidate.fit.parameters, candidate.fit.numbers));
+    trial.chi_square = chi_square_of(trial, candidate.fit, parameters_.size(), base_);
+    return candidate;
+  }
+
+  // The score chose the best of many suspects, and of noisy slopes: fresh light has to show a good part of
+  // it.
+  bool is_confirmed(const DiagnosisStep& now) const {
+    const Trial& best = now.trials.front();
+    const auto& effects = now.scores.effects;
+    const auto score = std::find_if(effects.begin(), effects.end(), [&](const EffectScore& effect) {
+      return effect.best.suspect.effect == best.suspect.effect;
+    });
+    const double least = 3 + 0.5 * static_cast<double>(best.parameters.size());
+    return best.chi_square / 2 > std::max(least, confirmed_share * score->best.gain);
   }
 
   // A plain effect has one value in a model.
@@ -211,8 +219,8 @@ class Diagnoser {
     });
   }
 
-  void accept(DiagnosisStep& now, std::size_t best, const IceFit& fit, double gain) {
-    const Trial& trial = now.trials[best];
+  void accept(DiagnosisStep& now, const IceFit& fit) {
+    const Trial& trial = now.trials.front();
     NamedEffect named;
     named.suspect = trial.suspect;
     named.parameters = trial.parameters;
@@ -220,15 +228,15 @@ class Diagnoser {
     // Likeness is known to the leader of the scores: who is like the leader, as what is added is, is alike.
     const auto leads_with = [&](const std::string& effect) {
       for (const EffectScore& score : now.scores.effects)
-        if (score.best.suspect.effect == effect) return score.likeness > alike;
+        if (score.best.suspect.effect == effect) return score.likeness > inseparable;
       return false;
     };
     if (leads_with(trial.suspect.effect))
       for (const EffectScore& other : now.scores.effects)
-        if (other.best.suspect.effect != trial.suspect.effect && other.likeness > alike &&
-            rivals(now, other.best.suspect.effect, trial.neg_llh))
+        if (other.best.suspect.effect != trial.suspect.effect && other.likeness > inseparable &&
+            may_be(other.best.suspect.effect, now))
           named.group.push_back(other.best.suspect.effect);
-    named.significance = std::sqrt(2 * gain);
+    named.significance = std::sqrt(trial.chi_square);
     spans_.push_back({parameters_.size(), trial.parameters.size()});
     result_.effects.push_back(std::move(named));
     take(fit);
@@ -242,11 +250,9 @@ class Diagnoser {
     constexpr double beyond = 50;  // the outermost flashers [m]
     constexpr int most_layers = 10;
     const Span span = spans_.back();
-    DepthRange range{1e9, -1e9, std::min(most_layers, static_cast<int>(data_.runs.size()))};
-    for (const RunData& run : data_.runs) {
-      const double depth = flasher_depth(run, *base_.detector);
-      range.top = std::min(range.top, depth - beyond), range.bottom = std::max(range.bottom, depth + beyond);
-    }
+    const FlasherDepths flashers = flasher_depths(data_, *base_.detector);
+    const DepthRange range{flashers.shallowest - beyond, flashers.deepest + beyond,
+                           std::min(most_layers, static_cast<int>(data_.runs.size()))};
     if (range.groups < 2) return;
     stage(from_, to_, "fitting birefringence layer by layer");
     std::vector<IceParameter> layered = with({});
@@ -258,9 +264,7 @@ class Diagnoser {
     }
     try {
       const IceFit fit = this->fit(data_, layered, rounds);
-      const double gain =
-          neg_llh_of_all(current()) - neg_llh_of_all(with_parameters(base_, fit.parameters, fit.numbers));
-      if (gain < 0.5 * (range.groups - 1)) return;
+      if (spread_of_layers(fit, span.first) < 2 * (range.groups - 1)) return;
       spans_.back().count = layered.size() - span.first;
       NamedEffect& effect = result_.effects.back();
       effect.parameters.assign(layered.begin() + static_cast<std::ptrdiff_t>(span.first), layered.end());
@@ -268,6 +272,17 @@ class Diagnoser {
     } catch (const Error&) {
       // Some layer scatters too little for so strong crystals: one strength for all stays.
     }
+  }
+  // Chi-square of the layers, from `first` to the last parameter, about what is best for all of them.
+  static double spread_of_layers(const IceFit& fit, std::size_t first) {
+    const auto at = static_cast<Eigen::Index>(first);
+    const auto size = static_cast<Eigen::Index>(fit.numbers.size()) - at;
+    const Eigen::VectorXd weights =
+        fit.covariance.block(at, at, size, size).ldlt().solve(Eigen::VectorXd::Ones(size));
+    double mean = 0;
+    for (Eigen::Index i = 0; i < size; ++i)
+      mean += weights(i) / weights.sum() * fit.numbers[first + static_cast<std::size_t>(i)];
+    return fit.distance(first, std::vector<double>(static_cast<std::size_t>(size), mean));
   }
   bool is_layered(const NamedEffect& effect) const {
     return !effect.parameters.front().family.empty();
@@ -282,11 +297,10 @@ class Diagnoser {
                    std::sqrt(share.dot(fit.covariance.block(first, first, count, count) * share))};
   }
 
-  // Whether a fit of it, if there was one, came close.
-  static bool rivals(const DiagnosisStep& now, const std::string& effect, double best) {
-    constexpr double close = 5;  // of -ln L
+  // Whether its fit, if there was one, does not speak against it.
+  static bool may_be(const std::string& effect, const DiagnosisStep& now) {
     for (const Trial& trial : now.trials)
-      if (trial.suspect.effect == effect) return trial.neg_llh < best + close;
+      if (trial.suspect.effect == effect) return lost_narrowly(trial);
     return true;
   }
 
@@ -310,10 +324,9 @@ class Diagnoser {
       const NamedEffect& effect = result_.effects[e];
       if (effect.suspect.place.count("depth") || is_layered(effect)) continue;
       double most = 0;
-      for (std::size_t i = 0; i < effect.values.size(); ++i) {
-        const IceParameter before = null_of(effect, i);
-        most = std::max(most, std::abs(effect.values[i] - before.start) / effect.errors[i]);
-      }
+      for (std::size_t i = 0; i < effect.values.size(); ++i)
+        most = std::max(
+            most, std::abs(effect.values[i] - null_number(effect.parameters[i], base_)) / effect.errors[i]);
       if (most >= still_there) continue;
       result_.remarks.push_back(fmt::format("{} was given up when {} came in: {:.1f} standard deviations",
                                             text_of(effect.suspect), text_of(result_.effects.back().suspect),
@@ -321,13 +334,6 @@ class Diagnoser {
       drop(e);
       return;
     }
-  }
-  IceParameter null_of(const NamedEffect& effect, std::size_t i) const {
-    return effect.suspect.place.empty()
-               ? effect_parameter(effect.parameters[i].name, base_)
-               : fit_parameters(effect.suspect,
-                                Eigen::VectorXd::Zero(static_cast<Eigen::Index>(effect.parameters.size())),
-                                base_)[i];
   }
   void drop(std::size_t e) {
     const Span span = spans_[e];
@@ -349,13 +355,6 @@ class Diagnoser {
       }
   }
 
-  FlasherData without_fold(int fold) const {
-    FlasherData rest;
-    for (std::size_t r = 0; r < data_.runs.size(); ++r)
-      if (static_cast<int>(r) % options_.folds != fold) rest.runs.push_back(data_.runs[r]);
-    return rest;
-  }
-
   // Each run judged by a model that was fitted to other runs.
   void finish(bool unexplained) {
     result_.improved = current();
@@ -372,7 +371,7 @@ class Diagnoser {
       stage(0.9 + 0.1 * fold / folds, 0.9 + 0.1 * (fold + 1) / folds, "holding runs out");
       const Model model = folds == 1 ? result_.improved : fitted_without(fold);
       for (std::size_t r = 0; r < data_.runs.size(); ++r)
-        if (static_cast<int>(r) % folds == fold) result_.gaps[r].after = gap(model, r);
+        if (is_in_fold(r, fold, folds)) result_.gaps[r].after = gap(model, r);
     }
     for (const RunGap& run : result_.gaps) result_.gap_before += run.before, result_.gap_after += run.after;
     for (const NamedEffect& effect : result_.effects) result_.verdict.push_back(effect.suspect.effect);
@@ -399,7 +398,7 @@ class Diagnoser {
   }
   Model fitted_without(int fold) {
     const std::vector<IceParameter> parameters = with({});
-    const IceFit blind = fit(without_fold(fold), parameters, rounds_of_folds);
+    const IceFit blind = fit(without_fold(data_, fold, options_.folds), parameters, rounds_of_folds);
     return with_parameters(base_, blind.parameters, blind.numbers);
   }
 

@@ -9,6 +9,7 @@
 #include "data/base/progress.h"
 #include "propagation/effects_file.h"
 #include "propagation/model.h"
+#include "reco/diagnose/contest.h"
 #include "reco/diagnose/score_test.h"
 #include "reco/diagnose/where.h"
 #include "reco/ice_fit/ice_fit.h"
@@ -24,13 +25,6 @@ struct DiagnosisOptions : RunSettings {
   int folds = 3;         // groups of runs, each held out once; 1 to the number of runs
   int draws = 300;       // of light under the model, for each calibration
   int most_effects = 4;  // that are added, one after another
-};
-
-// A fit of one suspect, beside all that is in the model already.
-struct Trial {
-  Suspect suspect;
-  std::vector<IceParameter> parameters;  // of the suspect alone
-  double neg_llh = 0;                    // of all runs, with the same random numbers as its rivals'
 };
 
 // One look at a model: is anything missing, where, and what could it be?

@@ -11,24 +11,9 @@ namespace floe {
 
 namespace {
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '&')
-      result += "&amp;";
-    else
-      result += c;
-  }
-  return result;
-}
-
 std::string cells(const std::vector<std::string>& row, const char* tag) {
   std::string text = "<tr>";
-  for (const std::string& cell : row) text += fmt::format("<{0}>{1}</{0}>", tag, escaped(cell));
+  for (const std::string& cell : row) text += fmt::format("<{0}>{1}</{0}>", tag, markup_escaped(cell));
   return text + "</tr>\n";
 }
 
@@ -169,9 +154,12 @@ std::string score_table(const DiagnosisStep& step) {
 std::string trial_table(const DiagnosisStep& step) {
   std::vector<std::vector<std::string>> rows;
   for (const Trial& trial : step.trials)
-    rows.push_back({text_of(trial.suspect), fmt::format("{}", trial.parameters.size()),
-                    fmt::format("{:.1f}", trial.neg_llh)});
-  return table({"fitted", "parameters", "−ln L"}, rows);
+    rows.push_back(
+        {text_of(trial.suspect), fmt::format("{}", trial.parameters.size()),
+         fmt::format("{:.1f}", trial.neg_llh), fmt::format("{:.0f}", trial.chi_square),
+         trial.lost ? fmt::format("{:.0f}, the winner {:.0f}", trial.lost->loser, trial.lost->winner) : ""});
+  return table(
+      {"fitted", "parameters", "−ln L", "χ² about the model without it", "χ² added beside its rival"}, rows);
 }
 
 std::string region_table(const DiagnosisStep& step) {
@@ -234,16 +222,17 @@ std::string report_html(const Diagnosis& diagnosis, const DiagnosisOptions& opti
   std::string text = fmt::format(
       "<!doctype html>\n<html lang=en><head><meta charset=utf-8><title>Diagnosis of {0}</title>"
       "<style>{1}</style></head><body>\n<h1>What is {0} missing?</h1>\n",
-      escaped(facts.ice), style);
-  text += fmt::format("<p>Flasher data: {}</p>\n<p class=verdict>{}</p>\n", escaped(facts.data),
-                      escaped(verdict_sentence(diagnosis, options.alpha)));
+      markup_escaped(facts.ice), style);
+  text += fmt::format("<p>Flasher data: {}</p>\n<p class=verdict>{}</p>\n", markup_escaped(facts.data),
+                      markup_escaped(verdict_sentence(diagnosis, options.alpha)));
   const auto& regions = diagnosis.steps.front().where.regions;
   if (!diagnosis.verdict.empty())
     for (std::size_t i = 0; i < std::min<std::size_t>(3, regions.size()); ++i)
-      if (regions[i].significance > 3) text += fmt::format("<p>{}</p>\n", escaped(regions[i].sentence));
+      if (regions[i].significance > 3)
+        text += fmt::format("<p>{}</p>\n", markup_escaped(regions[i].sentence));
   text += pictures(diagnosis);
   if (!diagnosis.effects.empty()) text += "<h2>Added to the model</h2>\n" + effects_table(diagnosis);
-  for (const std::string& remark : diagnosis.remarks) text += "<p>" + escaped(remark) + ".</p>\n";
+  for (const std::string& remark : diagnosis.remarks) text += "<p>" + markup_escaped(remark) + ".</p>\n";
   text +=
       "<h2>Gap before and after</h2>\n<p>Deviance of each run above what it would be on average if the "
       "model were true; after: of models that were fitted to other runs.</p>\n" +
@@ -251,14 +240,15 @@ std::string report_html(const Diagnosis& diagnosis, const DiagnosisOptions& opti
   for (std::size_t i = 0; i < diagnosis.steps.size(); ++i) text += step_text(diagnosis, i);
   if (!diagnosis.left_out.empty()) {
     text += "<h2>Left out</h2>\n<ul>\n";
-    for (const std::string& sentence : diagnosis.left_out) text += "<li>" + escaped(sentence) + "</li>\n";
+    for (const std::string& sentence : diagnosis.left_out)
+      text += "<li>" + markup_escaped(sentence) + "</li>\n";
     text += "</ul>\n";
   }
   text += fmt::format(
       "<h2>To repeat this</h2>\n<p><code>{}</code></p>\n<p>floe {}, seed {}, {:.0f} s. alpha {:g}: the "
       "probability of naming anything when nothing is missing. Floor {:g}%: smaller changes of light are not "
       "told from differences between programs.</p>\n</body></html>\n",
-      escaped(facts.command), facts.version, facts.seed, diagnosis.seconds, options.alpha,
+      markup_escaped(facts.command), facts.version, facts.seed, diagnosis.seconds, options.alpha,
       100 * options.floor);
   return text;
 }

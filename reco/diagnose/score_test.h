@@ -13,6 +13,9 @@
 
 namespace floe {
 
+// Correlation above which the data cannot tell two effects apart.
+constexpr double inseparable = 0.9;
+
 struct Score {
   Suspect suspect;
   double gain = 0;             // expected of -ln L, by the best amplitudes
@@ -24,8 +27,8 @@ struct Score {
 // The best suspect of one effect, judged among all places that were tried.
 struct EffectScore {
   Score best;
-  double ln_p =
-      0;  // logarithm of the probability of as much gain from any of its suspects if nothing is missing
+  // Logarithm of the probability of as much gain from any of its suspects if nothing is missing.
+  double ln_p = 0;
   // Share of the best suspect's change of light that this one can imitate: correlation, brightness and time
   // zero of runs apart.
   double likeness = 0;

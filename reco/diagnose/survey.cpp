@@ -152,17 +152,12 @@ class Surveyor {
       progress_(static_cast<double>(r) / static_cast<double>(data_.runs.size()),
                 fmt::format("light of {} and all that could change it", run.name));
     const double photons = photons_wanted(run, look_.hits_per_photon[r], settings_.light);
-    // Time zero first, with a little light: bins go with it.
     const double brightness = run.charge / look_.hits_per_photon[r];
-    Scout scout = scout_run(point_.model(), request(r, 0, photons), 0);
-    const double time_zero = measure_run(scout.simulated, scout.photons, run, bins_of(scout, run, brightness),
-                                         {}, settings_.model_error)
-                                 .nuisances.time_zero;
-    delay(scout.simulated, time_zero);
-    const RunBins bins = bins_of(scout, run, brightness);
+    const auto [bins, time_zero, scouted] =
+        view_run(point_.model(), request(r, 0, photons), run, brightness, settings_.model_error);
 
     SimulatedRun simulated = simulate_run(point_.model(), request(r, 1, photons));
-    survey_.photons += scout.simulated.propagated + simulated.propagated;
+    survey_.photons += scouted + simulated.propagated;
     delay(simulated, time_zero);
     const RunMeasurement measured =
         measure_run(simulated, photons, run, bins, {brightness, 0}, settings_.model_error);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "propagation/effects/effect.h"
 
@@ -14,6 +15,7 @@ namespace {
 constexpr double beyond_flashers = 150;  // light of a flasher tells little of ice further above or below [m]
 constexpr double thickness = 20;         // of the layers that bands are made of [m]
 constexpr double displaced_strings_at_most = 6;  // [m]
+constexpr double late_strings_at_most = 60;      // [ns]
 constexpr double widest_band = 160;              // [m]; wider ones are no bands
 
 using Kind = SurveyColumn::Kind;
@@ -34,10 +36,24 @@ bool matters(const Model& model, const IceParameter& parameter) {
     const Model moved = with_parameters(model, {parameter}, {parameter.start + step});
     return moved.ice->hash() != model.ice->hash() || !(moved.sources == model.sources) ||
            moved.detector->hash() != model.detector->hash() ||
-           moved.acceptance.angular.coefficients() != model.acceptance.angular.coefficients();
+           moved.acceptance.angular.coefficients() != model.acceptance.angular.coefficients() ||
+           moved.acceptance.cable_radius != model.acceptance.cable_radius;
   } catch (const std::exception&) {
     return false;  // it makes no sense in this model
   }
+}
+
+// The parameters of an effect at a place that say how much it changes.
+std::vector<std::string> changing_names(const std::string& effect) {
+  if (effect == "geometry-offset") return {"x", "y", "z"};
+  if (effect == "time-offset") return {"time"};
+  return {"factor"};
+}
+
+// A large change of it: no step of a fit is longer.
+double large_change(const std::string& name) {
+  if (name == "factor") return 0.3;
+  return name == "time" ? 10 : 2;  // [ns], [m]
 }
 
 // A parameter of an effect at a place.
@@ -57,7 +73,7 @@ IceParameter parameter_at_place(const std::string& effect, const std::string& na
   parameter.start = all[index].null_value;
   parameter.low = all[index].low;
   parameter.high = all[index].high;
-  parameter.scale = name == "factor" ? 0.3 : 2;
+  parameter.scale = large_change(name);
   parameter.apply = [effect, values, index](double number, ModelParts& model) {
     std::vector<double> at = values;
     at[index] = number;
@@ -87,7 +103,7 @@ void add_bands(const SuspectPlan& plan, const char* effect, int first, std::vect
 
 }  // namespace
 
-SuspectPlan plan_suspects(const Model& model, double shallowest, double deepest) {
+SuspectPlan plan_suspects(const Model& model, const FlasherDepths& flashers) {
   SuspectPlan plan;
   for (const Effect* effect : effects()) {
     if (!is_plain(effect->name())) continue;
@@ -97,8 +113,8 @@ SuspectPlan plan_suspects(const Model& model, double shallowest, double deepest)
     }
   }
   const auto& layers = model.ice->tables().layers;
-  DepthRange range{std::max(shallowest - beyond_flashers, layers.front().depth),
-                   std::min(deepest + beyond_flashers, layers.back().depth), 1};
+  DepthRange range{std::max(flashers.shallowest - beyond_flashers, layers.front().depth),
+                   std::min(flashers.deepest + beyond_flashers, layers.back().depth), 1};
   range.groups = std::max(1, static_cast<int>((range.bottom - range.top) / thickness));
   plan.bands = {range.top, (range.bottom - range.top) / range.groups, range.groups};
   plan.first_layer = static_cast<int>(plan.parameters.size());
@@ -122,6 +138,8 @@ std::vector<Suspect> suspects_of(const Survey& survey, const SuspectPlan& plan) 
     const auto string = static_cast<double>(column.string);
     if (column.kind == Kind::string_efficiency)
       suspects.push_back({"string-efficiency", {{"string", string}}, {{{index, 1.0}}}});
+    else if (column.kind == Kind::string_time)
+      suspects.push_back({"time-offset", {{"string", string}}, {{{index, 1.0}}}, late_strings_at_most});
     else if (column.kind == Kind::module_efficiency)
       suspects.push_back({"module-efficiency",
                           {{"string", string}, {"dom", static_cast<double>(column.dom)}},
@@ -145,9 +163,7 @@ std::vector<IceParameter> fit_parameters(const Suspect& suspect, const Eigen::Ve
     parameters[1].start = suspect.place.at("width");
     parameters[2].start = std::clamp(std::exp(amplitudes(0)), 0.4, 2.5);
   } else if (suspect.place.count("string")) {
-    const std::vector<std::string> names = suspect.effect == "geometry-offset"
-                                               ? std::vector<std::string>{"x", "y", "z"}
-                                               : std::vector<std::string>{"factor"};
+    const std::vector<std::string> names = changing_names(suspect.effect);
     for (std::size_t i = 0; i < names.size(); ++i) {
       parameters.push_back(parameter_at_place(suspect.effect, names[i], suspect, base));
       IceParameter& p = parameters.back();
@@ -163,6 +179,17 @@ std::vector<IceParameter> fit_parameters(const Suspect& suspect, const Eigen::Ve
     }
   }
   return parameters;
+}
+
+double null_number(const IceParameter& parameter, const Model& base) {
+  const std::size_t dot = parameter.name.find('.');
+  for (const EffectParameter& p : find_effect(parameter.name.substr(0, dot)).parameters(parts_of(base)))
+    if (p.name == parameter.name.substr(dot + 1)) return p.null_value;
+  throw std::logic_error(parameter.name + " is no parameter of an effect");
+}
+
+bool is_place_of_band(const IceParameter& parameter) {
+  return parameter.name.ends_with("-layer.depth") || parameter.name.ends_with("-layer.width");
 }
 
 std::string text_of(const Suspect& suspect) {

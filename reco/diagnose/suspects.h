@@ -34,14 +34,18 @@ struct SuspectPlan {
   BandGrid bands;
   int first_layer = 0;  // index of the first group's absorption
 };
-// `shallowest`, `deepest`: flashers [m].
-SuspectPlan plan_suspects(const Model& model, double shallowest, double deepest);
+SuspectPlan plan_suspects(const Model& model, const FlasherDepths& flashers);
 
 std::vector<Suspect> suspects_of(const Survey& survey, const SuspectPlan& plan);
 
 // Parameters for a fit of this suspect on a base model. They begin where the survey's amplitudes suggest.
 std::vector<IceParameter> fit_parameters(const Suspect& suspect, const Eigen::VectorXd& amplitudes,
                                          const Model& base);
+
+// The number of such a parameter at which the effect changes nothing: the base's own.
+double null_number(const IceParameter& parameter, const Model& base);
+// Depth and width of a band, at which no number changes nothing.
+bool is_place_of_band(const IceParameter& parameter);
 
 // "geometry-offset of string 36", "absorption-layer at 1740-1810 m", "tilt"
 std::string text_of(const Suspect& suspect);

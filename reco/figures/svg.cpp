@@ -8,21 +8,6 @@ namespace floe {
 
 namespace {
 
-std::string escaped(const std::string& words) {
-  std::string result;
-  for (const char c : words) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else
-      result += c;
-  }
-  return result;
-}
-
 std::string coordinates(std::span<const Svg::Point> points) {
   std::string result;
   for (const auto& [x, y] : points) result += fmt::format("{:.1f},{:.1f} ", x, y);
@@ -74,7 +59,7 @@ void Svg::text(Point place, const std::string& words, double size, Anchor anchor
   body_ += fmt::format(
       "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\" text-anchor=\"{}\" fill=\"{}\"{}{}>{}</text>\n", x, y,
       size, names[static_cast<int>(anchor)], colour, bold ? " font-weight=\"bold\"" : "", turn,
-      escaped(words));
+      markup_escaped(words));
 }
 
 std::string Svg::str() const {
@@ -98,6 +83,21 @@ std::vector<double> round_ticks(double low, double high, int count) {
   for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k)
     ticks.push_back(k * step + 0.0);  // + 0.0: not -0
   return ticks;
+}
+
+std::string markup_escaped(const std::string& words) {
+  std::string result;
+  for (const char c : words) {
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '<')
+      result += "&lt;";
+    else if (c == '>')
+      result += "&gt;";
+    else
+      result += c;
+  }
+  return result;
 }
 
 }  // namespace floe

@@ -8,6 +8,9 @@
 
 namespace floe {
 
+// Characters that SVG and HTML reserve are escaped.
+std::string markup_escaped(const std::string& words);
+
 struct Stroke {
   std::string colour = "#222222";
   double width = 1;

@@ -9,7 +9,8 @@ namespace {
 
 bool same_but_for_efficiency(const Module& a, const Module& b) {
   return a.id == b.id && a.position == b.position && a.high_qe_spectrum == b.high_qe_spectrum &&
-         a.on == b.on && a.cable_azimuth == b.cable_azimuth && a.up_axis == b.up_axis;
+         a.on == b.on && a.cable_azimuth == b.cable_azimuth && a.up_axis == b.up_axis &&
+         a.clock_offset == b.clock_offset;
 }
 
 double accepted(const AngularAcceptance& acceptance, const SimulatedHit& hit, const Module& module) {
@@ -30,6 +31,7 @@ std::optional<AcceptanceChange> AcceptanceChange::between(const Model& was, cons
   const auto &a = was.detector->modules(), &b = is.detector->modules();
   const bool alike = was.ice->hash() == is.ice->hash() && was.sources == is.sources &&
                      was.acceptance.overall_efficiency == is.acceptance.overall_efficiency &&
+                     was.acceptance.cable_radius == is.acceptance.cable_radius &&
                      was.acceptance.angular.is_surface() == is.acceptance.angular.is_surface() &&
                      std::ranges::equal(a, b, same_but_for_efficiency);
   if (!alike) return {};

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -237,6 +238,14 @@ double IceFit::error(std::size_t i) const {
   const auto k = static_cast<Eigen::Index>(i);
   const double error = std::sqrt(covariance(k, k));
   return parameters[i].logarithmic ? value(i) * error : error;
+}
+
+double IceFit::distance(std::size_t first, std::span<const double> from) const {
+  const auto at = static_cast<Eigen::Index>(first), size = static_cast<Eigen::Index>(from.size());
+  Eigen::VectorXd off(size);
+  for (Eigen::Index i = 0; i < size; ++i)
+    off(i) = numbers[first + static_cast<std::size_t>(i)] - from[static_cast<std::size_t>(i)];
+  return off.dot(covariance.block(at, at, size, size).ldlt().solve(off));
 }
 
 IceFit fit_ice(const Model& base, const FlasherData& data, const std::vector<IceParameter>& parameters,

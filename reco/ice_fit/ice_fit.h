@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,8 @@ struct IceFit {
 
   double value(std::size_t i) const;  // as shown: exp() of logarithmic numbers
   double error(std::size_t i) const;  // of value()
+  // Chi-square of the parameters from `first` on about other numbers, whatever the rest of them are (Wald).
+  double distance(std::size_t first, std::span<const double> from) const;
 };
 
 // Gauss-Newton rounds: simulate every run in the current model, read slopes off the detected photons' paths,

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "data/base/error.h"
 #include "reco/ice_fit/anisotropies.h"
-#include "reco/ice_fit/run_likelihood.h"
+#include "reco/ice_fit/model_judge.h"
 #include "reco/ice_fit/run_plan.h"
 
 namespace floe {
@@ -16,8 +17,7 @@ namespace floe {
 namespace {
 
 constexpr int rounds_of_folds = 3;  // they start where the fit to all runs ended
-constexpr std::uint64_t first_stream = std::uint64_t{1} << 59, scout_stream = std::uint64_t{1} << 60,
-                        held_out_stream = std::uint64_t{1} << 61;
+constexpr std::uint64_t first_stream = std::uint64_t{1} << 59, held_out_stream = std::uint64_t{1} << 61;
 
 std::vector<IceParameter> parameters_of(const AnisotropyDescription& plan, const Model& base) {
   std::vector<IceParameter> parameters;
@@ -30,12 +30,6 @@ std::vector<IceParameter> parameters_of(const AnisotropyDescription& plan, const
   }
   return parameters;
 }
-
-// The held-out runs' bins and photons, the same for every rung.
-struct Measure {
-  std::vector<double> photons;
-  std::vector<RunBins> bins;
-};
 
 class Climb {
  public:
@@ -59,23 +53,11 @@ class Climb {
             options_.fit.seed, stream + r, options_.fit.threads};
   }
 
+  // Held-out runs are compared in bins of the base's light, the same for every rung.
   void plan_measure() {
     const FirstLook look = look_first(
         base_, [this](std::size_t r, double photons) { return request(r, first_stream, photons); }, data_);
-    for (std::size_t r = 0; r < data_.runs.size(); ++r) {
-      const RunData& run = data_.runs[r];
-      const double each = look.hits_per_photon[r];
-      measure_.photons.push_back(photons_wanted(run, each, options_.fit.light));
-      const Scout scout = scout_run(base_, request(r, scout_stream, measure_.photons[r]), 0);
-      measure_.bins.push_back(bins_of(scout, run, run.charge / each));
-    }
-  }
-
-  FlasherData without_fold(int fold) const {
-    FlasherData rest;
-    for (std::size_t r = 0; r < data_.runs.size(); ++r)
-      if (static_cast<int>(r) % options_.folds != fold) rest.runs.push_back(data_.runs[r]);
-    return rest;
+    judge_.emplace(base_, data_, look, options_.fit, held_out_stream);
   }
 
   IceFit fit(const Model& bare, const FlasherData& data, const std::vector<IceParameter>& parameters,
@@ -101,26 +83,19 @@ class Climb {
     for (std::size_t i = 0; i < parameters.size(); ++i) parameters[i].start = rung.fit.numbers[i];
     rung.held_out.assign(data_.runs.size(), 0);
     for (int fold = 0; fold < options_.folds; ++fold) {
-      const IceFit blind = fit(bare, without_fold(fold), parameters, rounds_of_folds);
+      const IceFit blind = fit(bare, without_fold(data_, fold, options_.folds), parameters, rounds_of_folds);
       const Model model = with_parameters(bare, parameters, blind.numbers);
       for (std::size_t r = 0; r < data_.runs.size(); ++r)
-        if (static_cast<int>(r) % options_.folds == fold) rung.held_out[r] = held_out(model, r);
+        if (is_in_fold(r, fold, options_.folds)) rung.held_out[r] = judge_->measure(model, r).neg_llh;
     }
     return rung;
-  }
-
-  double held_out(const Model& model, std::size_t r) const {
-    const SimulatedRun simulated = simulate_run(model, request(r, held_out_stream, measure_.photons[r]));
-    return measure_run(simulated, measure_.photons[r], data_.runs[r], measure_.bins[r], {},
-                       options_.fit.model_error)
-        .neg_llh;
   }
 
   const Model& base_;
   FlasherData data_;
   const LadderOptions& options_;
   const Progress& progress_;
-  Measure measure_;
+  std::optional<ModelJudge> judge_;
   std::string name_;
   std::size_t fits_ = 0;
 };

@@ -16,13 +16,11 @@ ModelJudge::ModelJudge(const Model& base, const FlasherData& data, const FirstLo
   for (std::size_t r = 0; r < data_.runs.size(); ++r) {
     const RunData& run = data_.runs[r];
     photons_.push_back(photons_wanted(run, look.hits_per_photon[r], settings_.light));
-    Scout scout = scout_run(base, request(r, 0, photons_[r]), 0);
-    const double brightness = run.charge / look.hits_per_photon[r];
-    time_zero_.push_back(measure_run(scout.simulated, scout.photons, run, bins_of(scout, run, brightness), {},
-                                     settings_.model_error)
-                             .nuisances.time_zero);
-    delay(scout.simulated, time_zero_[r]);
-    bins_.push_back(bins_of(scout, run, brightness));
+    views_.push_back(view_run(base, request(r, 0, photons_[r]), run, run.charge / look.hits_per_photon[r],
+                              settings_.model_error));
+    // Half of a chi-square of all bins, of which the data, the same for both models, make this share.
+    const double light = photons_[r] * look.hits_per_photon[r] / run.charge, of_data = light / (1 + light);
+    squared_noise_ += static_cast<double>(views_[r].bins.size()) * (1 - of_data * of_data);
   }
 }
 
@@ -37,17 +35,17 @@ RunRequest ModelJudge::request(std::size_t run, std::uint64_t purpose, double ph
 
 RunMeasurement ModelJudge::measure(const Model& model, std::size_t run) const {
   return measure_run(simulate_run(model, request(run, 1, photons_[run])), photons_[run], data_.runs[run],
-                     bins_[run], {0, time_zero_[run]}, settings_.model_error);
+                     views_[run].bins, {0, views_[run].time_zero}, settings_.model_error);
 }
 
 ModelJudge::Fit ModelJudge::judge(const Model& model, std::size_t run) const {
   SimulatedRun simulated = simulate_run(model, request(run, 1, photons_[run]));
   Fit fit;
-  fit.measured = measure_run(simulated, photons_[run], data_.runs[run], bins_[run], {0, time_zero_[run]},
-                             settings_.model_error);
+  fit.measured = measure_run(simulated, photons_[run], data_.runs[run], views_[run].bins,
+                             {0, views_[run].time_zero}, settings_.model_error);
   delay(simulated, fit.measured.nuisances.time_zero);
   const double factor = dispersion(simulated), brightness = fit.measured.nuisances.brightness;
-  const PhotonDraws pseudo(simulated, bins_[run], brightness / photons_[run],
+  const PhotonDraws pseudo(simulated, views_[run].bins, brightness / photons_[run],
                            data_.runs[run].run.oversize > 1);
   std::seed_seq sequence{settings_.seed, settings_.seed >> 32, stream_ + run};
   std::mt19937_64 random(sequence);

@@ -1,6 +1,7 @@
 // Compares models of the ice by the same flasher data, in the same bins, with the same random numbers.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -26,6 +27,9 @@ class ModelJudge {
     double expected = 0;  // -ln L
   };
   Fit judge(const Model& model, std::size_t run) const;
+  // Standard deviation of the difference of -ln L, over all runs, of models that fit equally well: what their
+  // simulations' noise makes.
+  double noise_of_differences() const { return std::sqrt(squared_noise_); }
 
  private:
   RunRequest request(std::size_t run, std::uint64_t purpose, double photons) const;
@@ -33,8 +37,9 @@ class ModelJudge {
   const FlasherData& data_;
   RunSettings settings_;
   std::uint64_t stream_;
-  std::vector<double> photons_, time_zero_;
-  std::vector<RunBins> bins_;
+  std::vector<double> photons_;
+  std::vector<RunView> views_;
+  double squared_noise_ = 0;
 };
 
 }  // namespace floe

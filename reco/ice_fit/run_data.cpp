@@ -71,6 +71,27 @@ double flasher_depth(const RunData& run, const Detector& detector) {
   return origin_depth - detector.modules()[detector.index_of(run.run.module)].position.z();
 }
 
+FlasherDepths flasher_depths(const FlasherData& data, const Detector& detector) {
+  const double first = flasher_depth(data.runs.front(), detector);
+  FlasherDepths depths{first, first};
+  for (const RunData& run : data.runs) {
+    const double depth = flasher_depth(run, detector);
+    depths = {std::min(depths.shallowest, depth), std::max(depths.deepest, depth)};
+  }
+  return depths;
+}
+
+bool is_in_fold(std::size_t run, int fold, int folds) {
+  return static_cast<int>(run) % folds == fold;
+}
+
+FlasherData without_fold(const FlasherData& data, int fold, int folds) {
+  FlasherData rest;
+  for (std::size_t r = 0; r < data.runs.size(); ++r)
+    if (!is_in_fold(r, fold, folds)) rest.runs.push_back(data.runs[r]);
+  return rest;
+}
+
 FlasherData flasher_data(const Detector& detector, std::span<const Event> events) {
   FlasherData data;
   for (const Event& event : events) {

@@ -60,4 +60,13 @@ RunBins bins_of(const Scout& scout, const RunData& run, double brightness) {
   return RunBins(scout.simulated.hits, brightness / scout.photons, run.used, {});
 }
 
+RunView view_run(const Model& model, const RunRequest& request, const RunData& run, double brightness,
+                 double model_error) {
+  Scout scout = scout_run(model, request, 0);
+  const RunMeasurement measured =
+      measure_run(scout.simulated, scout.photons, run, bins_of(scout, run, brightness), {}, model_error);
+  delay(scout.simulated, measured.nuisances.time_zero);
+  return {bins_of(scout, run, brightness), measured.nuisances.time_zero, scout.simulated.propagated};
+}
+
 }  // namespace floe

@@ -53,4 +53,14 @@ Scout scout_run(const Model& model, RunRequest request, double time_zero);
 // `brightness`: expected counts of the data, all flashes together, for a simulated hit of N = 1.
 RunBins bins_of(const Scout& scout, const RunData& run, double brightness);
 
+// How a run is compared with simulations when its time zero is not yet known: a scout finds it, and bins go
+// with it.
+struct RunView {
+  RunBins bins;
+  double time_zero = 0;  // [ns]
+  std::uint64_t propagated = 0;
+};
+RunView view_run(const Model& model, const RunRequest& request, const RunData& run, double brightness,
+                 double model_error);
+
 }  // namespace floe

@@ -74,6 +74,31 @@ TEST_P(Effects, CableShadow) {
       }
 }
 
+// The shadow is as wide as the cable, and gone without one.
+TEST_P(Effects, CableShadowFollowsTheRadius) {
+  std::vector<Module> modules = modules_at({Vec3::Zero()});
+  modules[0].cable_azimuth = pi;
+  const Vec3 direction(1, 0, 0);
+  for (const double radius : {0.0, 0.01, 0.05}) {
+    ModuleAcceptance acceptance;
+    acceptance.cable_radius = radius;
+    const Model model = make_model(uniform_tables(clear), modules, acceptance);
+    for (const double y : {0.005, 0.02, 0.04})
+      EXPECT_EQ(kept_share(model, Vec3(-10, y, 0), direction, 1, 20), y < radius ? 0 : 1) << radius << y;
+  }
+}
+
+TEST_P(Effects, ClockOffsetDelaysHits) {
+  std::vector<Module> modules = modules_at({Vec3::Zero()});
+  const PointSource source(Vec3(-10, 0, 0), 0, 100, line_at_400(), Vec3(1, 0, 0));
+  const auto hits = simulate(make_model(uniform_tables(clear), modules), source, 1);
+  modules[0].clock_offset = -7.5;
+  const auto early = simulate(make_model(uniform_tables(clear), modules), source, 1);
+  ASSERT_EQ(early.size(), hits.size());
+  ASSERT_FALSE(hits.empty());
+  for (std::size_t i = 0; i < hits.size(); ++i) EXPECT_NEAR(early[i].time, hits[i].time - 7.5, 1e-4);
+}
+
 // The photomultiplier looks against the up axis: acceptance (1 + cos(eta))/2 for light from all sides.
 TEST_P(Effects, ModuleTiltTurnsTheAcceptance) {
   ModuleAcceptance acceptance;

@@ -53,7 +53,7 @@ TEST(Effects, HaveNamesOfTheirOwnAndSayWhatTheyAre) {
         EXPECT_LE(parameter.null_value, parameter.high);
       }
   }
-  EXPECT_EQ(names.size(), 19u);
+  EXPECT_EQ(names.size(), 20u);
 }
 
 TEST(Effects, ChangeNothingAtTheirNullValues) {

@@ -56,6 +56,7 @@ inline void expect_equal(const ModuleAcceptance& a, const ModuleAcceptance& b) {
     EXPECT_EQ(a.spectrum.points()[i].cumulative, b.spectrum.points()[i].cumulative);
   }
   EXPECT_EQ(a.high_qe.has_value(), b.high_qe.has_value());
+  EXPECT_EQ(a.cable_radius, b.cable_radius);
 }
 
 inline void expect_equal(const ModelParts& a, const ModelParts& b) {

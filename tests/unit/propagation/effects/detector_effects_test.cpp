@@ -74,8 +74,28 @@ TEST(GeometryOffsetEffect, MovesAStringWithItsHole) {
   EXPECT_EQ(moved.detector.name(), "drilled");
 }
 
+TEST(TimeOffsetEffect, SetsTheClocksOfAString) {
+  const ModelParts model = built_in_parts(),
+                   late = changed(model, {"time-offset.string=63", "time-offset.time=4"});
+  EXPECT_EQ(module_of(late, 63, 20).clock_offset, 4);
+  EXPECT_EQ(module_of(late, 64, 20).clock_offset, 0);
+  EXPECT_EQ(late.sources, model.sources);
+  EXPECT_NE(late.detector.hash(), model.detector.hash());
+}
+
+TEST(CableShadowEffect, ScalesCablesThatThereAre) {
+  ModelParts model = small_parts();
+  expect_refused(model, {"cable-shadow.radius=0.03"}, "where the cables are is not known");
+  std::vector<Module> modules = model.detector.modules();
+  modules[0].cable_azimuth = 1;
+  model.detector = Detector("cabled", modules);
+  EXPECT_EQ(find_effect("cable-shadow").parameters(model)[0].null_value, cable_radius);
+  EXPECT_EQ(changed(model, {"cable-shadow.radius=0.03"}).acceptance.cable_radius, 0.03);
+}
+
 TEST(EffectsOnModules, NeedModulesThatThereAre) {
   const ModelParts model = small_parts();
+  expect_refused(model, {"time-offset.string=85", "time-offset.time=1"}, "found string 85");
   expect_refused(model, {"module-efficiency.factor=2"}, "found no module");
   expect_refused(model, {"module-efficiency.string=86", "module-efficiency.factor=2"}, "found no module");
   expect_refused(model, {"module-efficiency.string=86", "module-efficiency.dom=3"}, "string 86, dom 3");

@@ -33,7 +33,7 @@ TEST(Probabilities, BeyondTheDrawsFallExponentially) {
 class Suspects : public ::testing::Test {
  protected:
   const Model model_ = load_model({});
-  const SuspectPlan plan_ = plan_suspects(model_, 1700, 1900);
+  const SuspectPlan plan_ = plan_suspects(model_, {1700, 1900});
 
   bool planned(const std::string& name) const {
     return std::any_of(plan_.parameters.begin(), plan_.parameters.end(),

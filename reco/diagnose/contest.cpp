@@ -1,0 +1,82 @@
+#include "reco/diagnose/contest.h"
+
+#include <algorithm>
+
+#include "data/base/error.h"
+
+namespace floe {
+
+namespace {
+
+constexpr double close = 2;      // differences of -ln L, in units of their noise
+constexpr double undecided = 6;  // differences of chi-square
+constexpr double held = 1e-3;    // width of a prior, in the parameter's scale, that leaves a band where it is
+
+double parameters_in(const Trial& trial) {
+  return static_cast<double>(trial.parameters.size());
+}
+
+double cost(const Candidate& candidate) {
+  return candidate.trial.neg_llh + 0.5 * parameters_in(candidate.trial);
+}
+
+// From where nothing is changed: where either ends, it favours itself.
+std::vector<IceParameter> parameters_of(const Candidate& candidate, const Model& base) {
+  std::vector<IceParameter> parameters = candidate.trial.parameters;
+  const std::size_t first = candidate.fit.numbers.size() - parameters.size();
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    IceParameter& p = parameters[i];
+    const bool is_place = is_place_of_band(p);
+    p.start = is_place ? candidate.fit.numbers[first + i] : null_number(p, base);
+    if (is_place) p.prior = held * p.scale;
+  }
+  return parameters;
+}
+
+// What each adds to the other, leader first.
+std::pair<double, double> duel(const Candidate& leader, const Candidate& challenger, const Model& base,
+                               const FitBeside& fit) {
+  std::vector<IceParameter> both = parameters_of(leader, base);
+  const std::size_t own = both.size();
+  for (IceParameter& p : parameters_of(challenger, base)) both.push_back(std::move(p));
+  const IceFit joint = fit(both);
+  const std::size_t first = joint.numbers.size() - both.size();
+  return {chi_square_of(leader.trial, joint, first, base),
+          chi_square_of(challenger.trial, joint, first + own, base)};
+}
+
+}  // namespace
+
+double chi_square_of(const Trial& trial, const IceFit& fit, std::size_t first, const Model& base) {
+  std::vector<double> nulls;
+  for (std::size_t i = 0; i < trial.parameters.size(); ++i) {
+    const IceParameter& p = trial.parameters[i];
+    nulls.push_back(is_place_of_band(p) ? fit.numbers[first + i] : null_number(p, base));
+  }
+  return fit.distance(first, nulls);
+}
+
+void hold_contest(const Model& base, double noise, const FitBeside& fit, std::vector<Candidate>& candidates) {
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return cost(a) < cost(b); });
+  const double limit = cost(candidates.front()) + close * noise;
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < candidates.size() && cost(candidates[i]) < limit; ++i) try {
+      const auto [leader, challenger] = duel(candidates[best], candidates[i], base, fit);
+      const bool stays =
+          leader - parameters_in(candidates[best].trial) >= challenger - parameters_in(candidates[i].trial);
+      const std::size_t loser = stays ? i : best;
+      if (!stays) best = i;
+      candidates[loser].trial.lost = stays ? Duel{leader, challenger} : Duel{challenger, leader};
+    } catch (const Error&) {
+      // No physical ice on its way: the order of -ln L stays.
+    }
+  std::rotate(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(best),
+              candidates.begin() + static_cast<std::ptrdiff_t>(best) + 1);
+}
+
+bool lost_narrowly(const Trial& trial) {
+  return trial.lost && trial.lost->winner - trial.lost->loser < undecided;
+}
+
+}  // namespace floe

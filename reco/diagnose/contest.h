@@ -1,0 +1,49 @@
+// Several suspects may explain the data: which of them is missing? Fits decide.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "propagation/model.h"
+#include "reco/diagnose/suspects.h"
+#include "reco/ice_fit/ice_fit.h"
+
+namespace floe {
+
+// What two effects add to each other in a joint fit: chi-squares about the model without the one of them.
+struct Duel {
+  double winner = 0, loser = 0;
+};
+
+// A fit of one suspect, beside all that is in the model already.
+struct Trial {
+  Suspect suspect;
+  std::vector<IceParameter> parameters;  // of the suspect alone
+  double neg_llh = 0;                    // of all runs, with the same random numbers as its rivals'
+  double chi_square = 0;                 // of its parameters about the model without it
+  std::optional<Duel> lost;              // to a rival that fits nearly as well
+};
+
+// A trial with its fit, of which the suspect's parameters are the last.
+struct Candidate {
+  Trial trial;
+  IceFit fit;
+};
+
+// Fits these beside all that is in the model already, which come first in the result.
+using FitBeside = std::function<IceFit(const std::vector<IceParameter>& more)>;
+
+// Chi-square of the fitted parameters of a suspect, which begin at `first`, about the model without it. The
+// place of a band is no change of the model.
+double chi_square_of(const Trial& trial, const IceFit& fit, std::size_t first, const Model& base);
+
+// Puts the best first. -ln L decides, with half a unit for each parameter, where the differences are larger
+// than the `noise` of simulations; candidates that are closer are fitted together, two at a time, and the one
+// that adds more to the other wins.
+void hold_contest(const Model& base, double noise, const FitBeside& fit, std::vector<Candidate>& candidates);
+
+// Whether the duel that it lost was too close to tell it from the winner.
+bool lost_narrowly(const Trial& trial);
+
+}  // namespace floe

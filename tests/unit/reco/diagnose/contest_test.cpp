@@ -1,0 +1,105 @@
+// Which of several suspects is missing: contests of made-up fits.
+#include "reco/diagnose/contest.h"
+
+#include <gtest/gtest.h>
+
+#include "data/base/error.h"
+
+namespace floe::test {
+namespace {
+
+class Contest : public ::testing::Test {
+ protected:
+  static constexpr double noise_ = 10;
+  const Model base_ = load_model({});  // absorption anisotropy 0.6, scattering anisotropy 0
+
+  Candidate candidate(const std::string& effect, double fitted, double neg_llh) const {
+    Candidate candidate;
+    candidate.trial.suspect.effect = effect;
+    candidate.trial.parameters = {effect_parameter(effect, base_)};
+    candidate.trial.neg_llh = neg_llh;
+    candidate.fit.numbers = {fitted};
+    return candidate;
+  }
+  static IceFit fit_with(std::vector<double> numbers, const std::vector<double>& errors) {
+    IceFit fit;
+    fit.numbers = std::move(numbers);
+    fit.covariance =
+        Eigen::Map<const Eigen::VectorXd>(errors.data(), static_cast<Eigen::Index>(errors.size()))
+            .cwiseAbs2()
+            .asDiagonal();
+    return fit;
+  }
+  std::vector<Candidate> rivals(double absorption_neg_llh) const {
+    return {candidate("absorption-anisotropy", 0.05, absorption_neg_llh),
+            candidate("scattering-anisotropy", 0.12, 185)};
+  }
+};
+
+TEST_F(Contest, FarApartTheLikelihoodDecides) {
+  auto candidates = rivals(185 + 2.1 * noise_);
+  hold_contest(
+      base_, noise_, [](const auto&) -> IceFit { throw std::logic_error("fitted"); }, candidates);
+  EXPECT_EQ(candidates[0].trial.suspect.effect, "scattering-anisotropy");
+  EXPECT_FALSE(candidates[1].trial.lost);
+}
+
+TEST_F(Contest, CloseRivalsMeetInOneFit) {
+  auto candidates = rivals(185 + 1.5 * noise_);
+  hold_contest(
+      base_, noise_,
+      [](const std::vector<IceParameter>& both) {
+        // Both begin where nothing is changed.
+        EXPECT_EQ(both[0].name, "scattering-anisotropy.k1");
+        EXPECT_EQ(both[0].start, 0);
+        EXPECT_EQ(both[1].start, 0.6);
+        return fit_with({99, 0.02, 0.1}, {1, 0.02, 0.1});  // after what is in the model already
+      },
+      candidates);
+  EXPECT_EQ(candidates[0].trial.suspect.effect, "absorption-anisotropy");
+  ASSERT_TRUE(candidates[1].trial.lost);
+  EXPECT_NEAR(candidates[1].trial.lost->winner, 25, 1e-9);
+  EXPECT_NEAR(candidates[1].trial.lost->loser, 1, 1e-9);
+  EXPECT_FALSE(lost_narrowly(candidates[1].trial));
+}
+
+TEST_F(Contest, WhatBothCouldBeIsLostNarrowly) {
+  auto candidates = rivals(186);
+  hold_contest(
+      base_, noise_,
+      [](const auto&) {
+        return fit_with({0.05, 0.4}, {0.05, 0.2});
+      },
+      candidates);
+  EXPECT_EQ(candidates[0].trial.suspect.effect, "scattering-anisotropy");
+  EXPECT_TRUE(lost_narrowly(candidates[1].trial));
+}
+
+TEST_F(Contest, WithoutACommonFitTheLikelihoodDecides) {
+  auto candidates = rivals(186);
+  hold_contest(
+      base_, noise_, [](const auto&) -> IceFit { throw UsageError("no such ice"); }, candidates);
+  EXPECT_EQ(candidates[0].trial.suspect.effect, "scattering-anisotropy");
+  EXPECT_FALSE(candidates[1].trial.lost);
+}
+
+// Depth and width of a band are no change: it is where it is.
+TEST_F(Contest, ThePlaceOfABandIsNoChange) {
+  Trial trial;
+  for (const char* name : {"depth", "width", "factor"})
+    trial.parameters.push_back(effect_parameter(std::string("absorption-layer.") + name, base_));
+  EXPECT_NEAR(chi_square_of(trial, fit_with({1700, 80, 1.6}, {3, 7, 0.1}), 0, base_), 36, 1e-9);
+}
+
+TEST(Distance, KnowsCorrelations) {
+  IceFit fit;
+  fit.numbers = {7, 1, 2};
+  fit.covariance = Eigen::Matrix3d::Identity();
+  fit.covariance(1, 2) = fit.covariance(2, 1) = 0.5;
+  const double nulls[] = {0, 0};
+  // (1, 2) C^-1 (1, 2) with C = (1 0.5; 0.5 1): (1 - 2 + 4) / 0.75.
+  EXPECT_NEAR(fit.distance(1, nulls), 4, 1e-12);
+}
+
+}  // namespace
+}  // namespace floe::test
