@@ -18,6 +18,7 @@ void add_diagnose(CLI::App& floe, const std::string& command_line);
 void add_blind_trials(CLI::App& floe);
 void add_ladder(CLI::App& floe);
 void add_scan(CLI::App& floe, const std::string& command_line);
+void add_crystal(CLI::App& floe, const std::string& command_line);
 void add_figures(CLI::App& floe, const std::string& command_line);
 void add_import(CLI::App& floe, const std::string& command_line);
 void add_export(CLI::App& floe);

@@ -42,6 +42,7 @@ void add_commands(CLI::App& app, const std::string& command_line) {
   floe::add_diagnose(app, command_line);
   floe::add_blind_trials(app);
   floe::add_scan(app, command_line);
+  floe::add_crystal(app, command_line);
   floe::add_figures(app, command_line);
   floe::add_import(app, command_line);
   floe::add_export(app);

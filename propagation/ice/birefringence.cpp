@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "data/base/vec3.h"
+#include "propagation/ice/diffusion_functions.h"
 #include "propagation/ice/ice_model.h"
 
 namespace floe {
@@ -9,11 +10,11 @@ namespace floe {
 namespace {
 
 double sigma(const DiffusionFunction& f, double sin_eta) {
-  return f.A * std::exp(-f.B * std::pow(std::atan(f.D * sin_eta), f.C));
+  return sigma_function(f.A, f.B, f.C, f.D, sin_eta);
 }
 
 double mean(const DiffusionFunction& f, double sin_eta, double cos_eta) {
-  return f.A * std::atan(f.D * sin_eta * cos_eta) * std::exp(-f.B * sin_eta + f.C * cos_eta);
+  return mean_function(f.A, f.B, f.C, f.D, sin_eta, cos_eta);
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ TEST(Help, ExamplesRunAsPrinted) {
   write_bytes(
       folder.path() / "runs.toml",
       "[defaults]\nphotons = 1e7\n[[run]]\nmodule = [63, 20]\n[[run]]\nmodule = [63, 20]\nleds = 3\n");
-  for (const std::string command : {"info", "effects", "simulate", "export", "import"})
+  for (const std::string command : {"info", "effects", "crystal", "simulate", "export", "import"})
     for (const std::string& example : examples_of(command)) {
       const Outcome outcome = run_floe(folder.path(), example);
       EXPECT_EQ(outcome.code, 0) << "floe " << example << "\n" << outcome.err;
