@@ -91,8 +91,8 @@ class ASurvey : public OfOneFlasher {
     const double found = (gap_of_light(load_model(changed)) - gap_of_light(model_))(column),
                  expected = survey_.information(column, column) * change,
                  noise = std::sqrt(2 / more_ * survey_.noise(column, column));
-    EXPECT_GT(std::abs(expected), 8 * noise) << "too small a change to be seen";
-    EXPECT_NEAR(found, expected, 0.1 * std::abs(expected) + 3 * noise) << settings.back();
+    EXPECT_GT(std::abs(expected), 6 * noise) << "too small a change to be seen";
+    EXPECT_NEAR(found, expected, 0.1 * std::abs(expected) + 2 * noise) << settings.back();
   }
   std::vector<IceParameter> parameters_;
   Survey survey_;
@@ -111,7 +111,7 @@ TEST_F(ASurvey, KnowsHowChangesShow) {
                column(Kind::string_efficiency, string, 0), 0.2);
   expect_found({"module-efficiency.string=36", "module-efficiency.dom=21", "module-efficiency.factor=1.5"},
                column(Kind::module_efficiency, string, 21), 0.5);
-  expect_found({"time-offset." + on_other, "time-offset.time=10"}, column(Kind::string_time, other, 0), 10);
+  expect_found({"time-offset." + on_other, "time-offset.time=5"}, column(Kind::string_time, other, 0), 5);
   expect_found({"geometry-offset." + on_other, "geometry-offset.x=3"}, column(Kind::string_x, other, 0), 3);
 }
 
