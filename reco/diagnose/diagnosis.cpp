@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint64_t look_stream = std::uint64_t{1} << 44, judge_stream = std::uint64_t{1} << 45;
 constexpr double leading_share = 0.35;  // of the best gain: suspects that are fitted, too
 constexpr std::size_t most_trials = 3;
-constexpr double light_of_contest = 3;   // times that of other fits: rivals are alike
+constexpr double hits_of_contest = 6e4;  // of each run, at least: rivals are alike
 constexpr double confirmed_share = 0.4;  // of the gain that a score promised, by a fit
 constexpr int rounds = 4, rounds_of_folds = 2, rounds_of_contest = 5;
 constexpr double still_there = 3;  // standard deviations, of effects when another one has come in
@@ -128,10 +128,10 @@ class Diagnoser {
   }
 
   IceFit fit(const FlasherData& data, const std::vector<IceParameter>& parameters, int most_rounds,
-             double more_light = 1) {
+             double least_hits = 0) {
     IceFitOptions options;
     static_cast<RunSettings&>(options) = options_;
-    options.light.light *= more_light;
+    options.light.least_hits = std::max(options.light.least_hits, least_hits);
     options.most_rounds = most_rounds;
     options.judged = false;  // the same for all rivals, below
     return fit_ice(base_, data, parameters, options, part());
@@ -161,7 +161,7 @@ class Diagnoser {
     hold_contest(
         base_, judge_->noise_of_differences(),
         [this](const auto& parameters) {
-          return fit(data_, with(parameters), rounds_of_contest, light_of_contest);
+          return fit(data_, with(parameters), rounds_of_contest, hits_of_contest);
         },
         candidates);
     for (const Candidate& candidate : candidates) now.trials.push_back(candidate.trial);

@@ -187,6 +187,60 @@ Region region_of(const ResidualProfile& profile, const Extreme& at, const Vector
   return region;
 }
 
+// Of all bins.
+struct Residuals {
+  VectorXd off, variance, expected;
+};
+
+// By how much more the data are off in the second half of the light along an axis than in the first, in
+// standard deviations; positive where the gap grows.
+double growth(const Axis& axis, const std::vector<char>& inside, const Residuals& all) {
+  VectorXd sums[3];
+  const VectorXd* values[] = {&all.off, &all.variance, &all.expected};
+  for (int k = 0; k < 3; ++k) {
+    VectorXd there = *values[k];
+    for (Eigen::Index b = 0; b < there.size(); ++b)
+      if (!inside[static_cast<std::size_t>(b)]) there(b) = 0;
+    sums[k] = sums_of(axis, there);
+  }
+  const double middle = sums[2].sum() / 2;
+  Eigen::Index split = 0;
+  for (double light = 0; split < sums[2].size() && light < middle; ++split) light += sums[2](split);
+  double relative[2], variance[2];
+  for (int half = 0; half < 2; ++half) {
+    const auto of_half = [&](const VectorXd& v) {
+      return half == 0 ? v.head(split).sum() : v.tail(v.size() - split).sum();
+    };
+    const double light = of_half(sums[2]);
+    if (!(light > 0)) return 0;
+    relative[half] = of_half(sums[0]) / light;
+    variance[half] = of_half(sums[1]) / (light * light);
+  }
+  const double error = std::sqrt(variance[0] + variance[1]);
+  const double difference = std::abs(relative[1] - relative[0]);
+  return (std::abs(relative[1]) > std::abs(relative[0]) ? difference : -difference) / error;
+}
+
+std::string sentence_of(const Region& region, const Axis& axis, const Extreme& at, const Axis& distance,
+                        const Axis& time, const Residuals& all) {
+  constexpr double clear = 3;  // standard deviations
+  const auto size = static_cast<int>(axis.profile.low.size());
+  std::vector<char> inside;
+  for (const int cell : axis.cell) inside.push_back(cell >= 0 && (cell - at.first + size) % size < at.cells);
+  std::string text = region.sentence.substr(0, region.sentence.size() - 1);
+  if (region.axis != "distance") {
+    const double grows = growth(distance, inside, all);
+    text += grows > clear ? ", growing with distance" : grows < -clear ? ", fading with distance" : "";
+  }
+  if (region.axis != "time") {
+    const double grows = growth(time, inside, all);
+    text += grows > clear    ? ", most in late light"
+            : grows < -clear ? ", most in early light"
+                             : ", timing unchanged";
+  }
+  return text + ".";
+}
+
 }  // namespace
 
 Whereabouts where_is_the_gap(const Model& model, const Survey& survey, int draws, std::uint64_t seed) {
@@ -198,7 +252,7 @@ Whereabouts where_is_the_gap(const Model& model, const Survey& survey, int draws
     variance.segment(run.first, run.bins.size()) =
         run.data_dispersion * light + run.dispersion * run.scale * light + (run.model_error * light).square();
   }
-  const VectorXd residual = residual_of(survey, measured_counts(survey));
+  const Residuals all{residual_of(survey, measured_counts(survey)), variance, expected};
   std::vector<std::vector<double>> drawn(axes.size(), std::vector<double>(static_cast<std::size_t>(draws)));
   std::vector<VectorXd> variances;
   for (const Axis& axis : axes) variances.push_back(sums_of(axis, variance));
@@ -212,9 +266,10 @@ Whereabouts where_is_the_gap(const Model& model, const Survey& survey, int draws
     }
   }
   Whereabouts where;
+  std::vector<Extreme> extremes;
   for (std::size_t a = 0; a < axes.size(); ++a) {
     ResidualProfile& profile = axes[a].profile;
-    const VectorXd off = sums_of(axes[a], residual), light = sums_of(axes[a], expected);
+    const VectorXd off = sums_of(axes[a], all.off), light = sums_of(axes[a], expected);
     for (Eigen::Index i = 0; i < off.size(); ++i) {
       profile.relative.push_back(light(i) > 0 ? off(i) / light(i) : 0);
       profile.error.push_back(light(i) > 0 ? std::sqrt(variances[a](i)) / light(i) : 0);
@@ -222,8 +277,19 @@ Whereabouts where_is_the_gap(const Model& model, const Survey& survey, int draws
     const Extreme at = extreme(profile, off, variances[a]);
     const double ln_p = ln_tail_probability(at.z * at.z / 2, drawn[a]);
     where.regions.push_back(region_of(profile, at, off, light, sigmas_of(ln_p)));
-    where.profiles.push_back(std::move(profile));
+    extremes.push_back(at);
   }
+  const auto first = static_cast<std::size_t>(
+      std::max_element(where.regions.begin(), where.regions.end(),
+                       [](const Region& a, const Region& b) { return a.significance < b.significance; }) -
+      where.regions.begin());
+  const auto axis_of = [&](std::string_view name) -> const Axis& {
+    return *std::find_if(axes.begin(), axes.end(),
+                         [&](const Axis& axis) { return axis.profile.axis == name; });
+  };
+  where.regions[first].sentence = sentence_of(where.regions[first], axes[first], extremes[first],
+                                              axis_of("distance"), axis_of("time"), all);
+  for (Axis& axis : axes) where.profiles.push_back(std::move(axis.profile));
   std::stable_sort(where.regions.begin(), where.regions.end(),
                    [](const Region& a, const Region& b) { return a.significance > b.significance; });
   return where;

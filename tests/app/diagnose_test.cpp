@@ -72,6 +72,28 @@ TEST_F(Diagnose, IsSilentWhereNothingIsMissing) {
   EXPECT_NE(text_of("found/report.html").find("Nothing is missing"), std::string::npos);
 }
 
+TEST_F(Diagnose, IsPutToTheTestByBlindTrials) {
+  write_bytes(folder_.path() / "runs.toml",
+              "[defaults]\nphotons = 5e7\n[[run]]\nmodule = [36, 20]\n[[run]]\nmodule = [45, 40]\n");
+  const Outcome outcome =
+      floe("blind-trials runs.toml --trials 1 --nothing 2 --least 8 --most 15 --seed 3 --json trials.json");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("Right name or group: "), std::string::npos);
+  int hidden = 0, right = 0;
+  for (const Json& trial : Json::parse(text_of("trials.json"))["trials"]) {
+    if (trial["hidden"] == "") {
+      EXPECT_EQ(trial["named"], "");
+      continue;
+    }
+    EXPECT_GE(trial["expected_significance"].get<double>(), 8);
+    EXPECT_FALSE(trial["hidden_values"].empty());
+    ++hidden, right += trial["right"].get<bool>();
+  }
+  EXPECT_GE(hidden, 4);
+  EXPECT_GE(right, hidden / 2.0) << outcome.out;
+  EXPECT_EQ(floe("blind-trials runs.toml --least 5 --most 4").code, 2);
+}
+
 TEST_F(Diagnose, SaysWhatIsWrongWithWhatItIsGiven) {
   expect_error(floe("diagnose none.h5 -o found"), 3, "none.h5");
   EXPECT_EQ(floe("diagnose runs.h5 -o found --alpha 2").code, 2);
