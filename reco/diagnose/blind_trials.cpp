@@ -39,7 +39,8 @@ class Trials {
         },
         data);
     const SuspectPlan plan = plan_suspects(base_, flasher_depths(data, *base_.detector));
-    SurveyPlan survey_plan{.parameters = plan.parameters, .pair_light = options_.pair_light};
+    SurveyPlan survey_plan{
+        .parameters = plan.parameters, .pair_light = options_.pair_light, .turns_by_pairs = true};
     const Survey survey = survey_data(base_, data, look, survey_plan, options_,
                                       [this](double fraction, const std::string& text) {
                                         if (progress_) progress_(0.3 * fraction, "survey: " + text);

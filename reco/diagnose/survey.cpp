@@ -114,7 +114,8 @@ class Surveyor {
         plan_(plan),
         settings_(settings),
         progress_(progress),
-        point_(model, plan.parameters, starts(plan.parameters), data.runs.front().run.wavelength) {}
+        point_(model, plan.parameters, starts(plan.parameters), data.runs.front().run.wavelength,
+               plan.turns_by_pairs) {}
 
   Survey run() {
     for (std::size_t r = 0; r < data_.runs.size(); ++r) look_at(r);

@@ -75,6 +75,7 @@ Eigen::VectorXd residual_of(const Survey& survey, const SurveyCounts& counts);
 struct SurveyPlan {
   const std::vector<IceParameter>& parameters;              // at their null values in the model
   double pair_reach = 1, pair_light = 0.25, one_sided = 4;  // see PairPlan
+  bool turns_by_pairs = false;                              // see IcePoint
   std::uint64_t stream = 0;                                 // of each survey its own, counting from 0
   bool places = true;                                       // strings and modules, too
 };

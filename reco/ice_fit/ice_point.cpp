@@ -14,7 +14,7 @@ constexpr double weight_step = 1e-3;  // in the parameter's scale, for weights, 
 }  // namespace
 
 IcePoint::IcePoint(const Model& base, const std::vector<IceParameter>& parameters,
-                   std::vector<double> numbers, double wavelength)
+                   std::vector<double> numbers, double wavelength, bool turns_by_pairs)
     : base_(base),
       parameters_(parameters),
       numbers_(std::move(numbers)),
@@ -25,7 +25,8 @@ IcePoint::IcePoint(const Model& base, const std::vector<IceParameter>& parameter
     const bool downwards = numbers_[p] > 0 && numbers_[p] - size >= parameters_[p].low;
     const double step = downwards ? -size : size;
     const Model changed = moved(p, step);
-    if (map_.add(static_cast<int>(p), changed, step)) continue;
+    const bool of_turns = parameters_[p].effect && parameters_[p].effect->effect == "birefringence";
+    if (!(of_turns && turns_by_pairs) && map_.add(static_cast<int>(p), changed, step)) continue;
     if (auto change = AcceptanceChange::between(model_, changed))
       of_acceptance_.push_back({p, std::move(*change), step});
     else

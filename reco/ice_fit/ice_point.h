@@ -25,9 +25,10 @@ struct PairPlan {
 
 class IcePoint {
  public:
-  // `wavelength`: of the runs [nm].
+  // `wavelength`: of the runs [nm]. `turns_by_pairs`: weights of the birefringence's strength follow from the
+  // turns of light and are noisy; pairs with enough light are better.
   IcePoint(const Model& base, const std::vector<IceParameter>& parameters, std::vector<double> numbers,
-           double wavelength);
+           double wavelength, bool turns_by_pairs = false);
 
   const Model& model() const { return model_; }
   // The model with one of the numbers changed.
