@@ -124,19 +124,21 @@ struct Extreme {
   double z = 0;
 };
 
-// Of all regions up to half of the axis.
-Extreme extreme(const ResidualProfile& profile, const VectorXd& residual, const VectorXd& variance) {
+// Of all regions up to half of the axis. A few counts where hardly any light is expected are not Gaussian.
+Extreme extreme(const ResidualProfile& profile, const VectorXd& residual, const VectorXd& variance,
+                const VectorXd& expected) {
+  constexpr double least_light = 20;
   const auto size = static_cast<int>(residual.size());
   const int most = profile.ordered ? std::max(1, size / 2) : 1;
   Extreme best;
   for (int first = 0; first < size; ++first) {
-    double sum = 0, square = 0;
+    double sum = 0, square = 0, light = 0;
     for (int cells = 1; cells <= most; ++cells) {
       int cell = first + cells - 1;
       if (cell >= size && !profile.circular) break;
       cell %= size;
-      sum += residual(cell), square += variance(cell);
-      if (!(square > 0)) continue;
+      sum += residual(cell), square += variance(cell), light += expected(cell);
+      if (light < least_light) continue;
       const double z = sum / std::sqrt(square);
       if (std::abs(z) > std::abs(best.z)) best = {first, cells, z};
     }
@@ -254,14 +256,17 @@ Whereabouts where_is_the_gap(const Model& model, const Survey& survey, int draws
   }
   const Residuals all{residual_of(survey, measured_counts(survey)), variance, expected};
   std::vector<std::vector<double>> drawn(axes.size(), std::vector<double>(static_cast<std::size_t>(draws)));
-  std::vector<VectorXd> variances;
-  for (const Axis& axis : axes) variances.push_back(sums_of(axis, variance));
+  std::vector<VectorXd> variances, lights;
+  for (const Axis& axis : axes) {
+    variances.push_back(sums_of(axis, variance));
+    lights.push_back(sums_of(axis, expected));
+  }
 #pragma omp parallel for schedule(dynamic)
   for (int d = 0; d < draws; ++d) {
     const VectorXd off = residual_of(
         survey, drawn_counts(survey, seed, (std::uint64_t{1} << 32) + static_cast<std::uint64_t>(d)));
     for (std::size_t a = 0; a < axes.size(); ++a) {
-      const double z = extreme(axes[a].profile, sums_of(axes[a], off), variances[a]).z;
+      const double z = extreme(axes[a].profile, sums_of(axes[a], off), variances[a], lights[a]).z;
       drawn[a][static_cast<std::size_t>(d)] = z * z / 2;
     }
   }
@@ -269,12 +274,12 @@ Whereabouts where_is_the_gap(const Model& model, const Survey& survey, int draws
   std::vector<Extreme> extremes;
   for (std::size_t a = 0; a < axes.size(); ++a) {
     ResidualProfile& profile = axes[a].profile;
-    const VectorXd off = sums_of(axes[a], all.off), light = sums_of(axes[a], expected);
+    const VectorXd off = sums_of(axes[a], all.off), &light = lights[a];
     for (Eigen::Index i = 0; i < off.size(); ++i) {
       profile.relative.push_back(light(i) > 0 ? off(i) / light(i) : 0);
       profile.error.push_back(light(i) > 0 ? std::sqrt(variances[a](i)) / light(i) : 0);
     }
-    const Extreme at = extreme(profile, off, variances[a]);
+    const Extreme at = extreme(profile, off, variances[a], light);
     const double ln_p = ln_tail_probability(at.z * at.z / 2, drawn[a]);
     where.regions.push_back(region_of(profile, at, off, light, sigmas_of(ln_p)));
     extremes.push_back(at);

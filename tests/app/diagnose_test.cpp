@@ -74,13 +74,14 @@ TEST_F(Diagnose, IsSilentWhereNothingIsMissing) {
 
 TEST_F(Diagnose, IsPutToTheTestByBlindTrials) {
   write_bytes(folder_.path() / "runs.toml",
-              "[defaults]\nphotons = 5e7\n[[run]]\nmodule = [36, 20]\n[[run]]\nmodule = [45, 40]\n");
+              "[defaults]\nphotons = 1e8\n[[run]]\nmodule = [36, 20]\n[[run]]\nmodule = [45, 40]\n");
   const Outcome outcome =
       floe("blind-trials runs.toml --trials 1 --nothing 2 --least 8 --most 15 --seed 3 --json trials.json");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("Right name or group: "), std::string::npos);
   int hidden = 0, right = 0;
-  for (const Json& trial : Json::parse(text_of("trials.json"))["trials"]) {
+  const Json found = Json::parse(text_of("trials.json"));
+  for (const Json& trial : found["trials"]) {
     if (trial["hidden"] == "") {
       EXPECT_EQ(trial["named"], "");
       continue;
