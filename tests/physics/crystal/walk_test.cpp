@@ -1,5 +1,6 @@
 // The walk: what must not happen, what must scale, and that the fast version is the plain one.
 #include "propagation/crystal/walk.h"
+#include "propagation/crystal/pattern_grid.h"
 
 #include <gtest/gtest.h>
 
@@ -80,6 +81,20 @@ TEST(CrystalWalk, DependsNeitherOnThreadsNorOnPortions) {
   const auto portion = walk_photons(girdle_ice(), walk, {1, 2, 77}, 50, 1);
   for (std::size_t i = 0; i < whole.size(); ++i) EXPECT_EQ(whole[i].direction, threads[i].direction);
   for (std::size_t i = 0; i < portion.size(); ++i) EXPECT_EQ(whole[77 + i].position, portion[i].position);
+}
+
+// Across spheroids twice as long as wide light meets twice the boundaries that it meets along them, on
+// equally long paths; spheres are alike in all directions.
+TEST(CrystalWalk, ChordsFollowTheGrains) {
+  PatternGrid grid{girdle_ice(), {0, 60 * degree, 90 * degree}, 1000, 1e-3, true, 1, 0, 200};
+  grid.crystal.grains = spheroid(2);
+  const auto patterns = walk_grid(grid);
+  for (const CrystalPattern& pattern : patterns) EXPECT_NEAR(pattern.length, 1, 1e-9);
+  EXPECT_NEAR(patterns[2].crossings, 2 * patterns[0].crossings, 2);
+  // Shadow of the spheroid: sqrt(4 sin^2 + cos^2) = 1.803 times that along its axis.
+  EXPECT_NEAR(patterns[1].crossings, std::sqrt(3.25) * patterns[0].crossings, 2);
+  grid.crystal.grains = spheroid(1);
+  for (const CrystalPattern& pattern : walk_grid(grid)) EXPECT_EQ(pattern.crossings, 1000);
 }
 
 }  // namespace
