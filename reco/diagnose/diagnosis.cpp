@@ -374,10 +374,25 @@ class Diagnoser {
         if (is_in_fold(r, fold, folds)) result_.gaps[r].after = gap(model, r);
     }
     for (const RunGap& run : result_.gaps) result_.gap_before += run.before, result_.gap_after += run.after;
+    if (result_.gap_after > result_.gap_before) {
+      give_up_everything();
+      unexplained = result_.steps.front().p_of_fit < options_.alpha / 2;
+    }
     for (const NamedEffect& effect : result_.effects) result_.verdict.push_back(effect.suspect.effect);
     if (unexplained) result_.verdict.push_back("unexplained");
     for (const NamedEffect& effect : result_.effects)
       if (!is_of_ice(effect)) result_.beside_ice.push_back(settings_of(effect));
+  }
+  // What makes light worse that the fit has not seen is not what is missing.
+  void give_up_everything() {
+    for (const NamedEffect& effect : result_.effects)
+      result_.remarks.push_back(
+          fmt::format("{} was given up: runs that were held out fit worse with it", text_of(effect.suspect)));
+    result_.effects.clear(), spans_.clear(), parameters_.clear(), numbers_.clear();
+    for (DiagnosisStep& step : result_.steps) step.added.reset();
+    for (RunGap& run : result_.gaps) run.after = run.before;
+    result_.gap_after = result_.gap_before;
+    result_.improved = base_;
   }
   std::vector<EffectSetting> settings_of(const NamedEffect& effect) const {
     std::vector<EffectSetting> settings;
