@@ -46,12 +46,14 @@ std::vector<IceParameter> parameters_of(const FitIceCommand& command, const Mode
                                         const DepthRange& range) {
   std::vector<IceParameter> parameters;
   for (const std::string& name : command.fit) {
-    if (const auto family = layer_family_of(name)) {
-      const auto layers = layer_parameters(*family, range);
-      parameters.insert(parameters.end(), layers.begin(), layers.end());
-    } else {
-      parameters.push_back(effect_parameter(name, base));
-    }
+    std::vector<IceParameter> layers;
+    if (const auto family = layer_family_of(name))
+      layers = layer_parameters(*family, range);
+    else if (name == "tilt")
+      layers = tilt_parameters(range);
+    else
+      layers = {effect_parameter(name, base)};
+    parameters.insert(parameters.end(), layers.begin(), layers.end());
     const auto same = [&](const IceParameter& p) { return p.name == parameters.back().name; };
     if (std::count_if(parameters.begin(), parameters.end(), same) > 1)
       throw UsageError(fmt::format("--fit: {} is named twice", name));
@@ -140,8 +142,8 @@ void add_fit_ice(CLI::App& floe, const std::string& command_line) {
   add_model_options(app, command->model);
   app.add_option_function<std::string>(
          "--fit", [command = command.get()](const std::string& list) { command->fit = split_list(list); },
-         "What to fit: absorption, scattering, birefringence (a factor for each layer), and parameters of "
-         "effects of the ice, as floe effects lists them")
+         "What to fit: absorption, scattering, birefringence (a factor for each layer), tilt (a slope for "
+         "each), and parameters of effects of the ice, as floe effects lists them")
       ->type_name("NAME[,NAME]")
       ->default_str("absorption,scattering");
   app.add_option_function<std::string>(

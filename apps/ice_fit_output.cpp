@@ -20,6 +20,11 @@ std::string with_error(double value, double error) {
   return fmt::format("{:.3f} +- {:.3f}", value, error);
 }
 
+// Factors stand for themselves.
+std::string title_of_family(const IceParameter& p) {
+  return p.unit.empty() ? p.family + " x" : fmt::format("{} [{}]", p.family, p.unit);
+}
+
 // One row a depth, one column a family.
 std::string layer_table(const IceFit& fit) {
   std::vector<std::string> header{"depth [m]"};
@@ -27,7 +32,7 @@ std::string layer_table(const IceFit& fit) {
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
     const IceParameter& p = fit.parameters[i];
     if (p.family.empty()) continue;
-    if (header.back() != p.family + " x") header.push_back(p.family + " x");
+    if (header.back() != title_of_family(p)) header.push_back(title_of_family(p));
     const std::size_t column = header.size() - 1;
     if (column == 1) rows.push_back({fmt::format("{:.0f}", p.depth)});
     for (std::vector<std::string>& row : rows)

@@ -16,6 +16,7 @@
 #include "apps/progress_bar.h"
 #include "data/base/error.h"
 #include "data/event_files.h"
+#include "propagation/engine/noise_hits.h"
 #include "propagation/engine/simulator.h"
 
 namespace floe {
@@ -166,6 +167,7 @@ class Run {
         run_source(planned, event, share, result);
         done_ += share;
       }
+      add_noise(event, result);
       results.push_back(std::move(result));
     }
     return results;
@@ -181,17 +183,7 @@ class Run {
     options.shard = options_.shard;
     options.absorption_stretch = options_.stretch;
     options.fixed_number = planned.fixed_number;
-    const Detector& detector = *simulator_.model().detector;
-    std::vector<Hit> portion;
-    const auto sink = [&](std::span<const SimulatedHit> hits) {
-      portion.clear();
-      for (const SimulatedHit& hit : hits) {
-        portion.push_back(to_hit(hit, detector));
-        portion.back().charge = static_cast<float>(portion.back().charge / event.repeats);
-        result.modules.insert(hit.module);
-      }
-      writer_.append(portion);
-    };
+    const auto sink = [&](std::span<const SimulatedHit> hits) { write(hits, event, result); };
     Progress progress;
     if (progress_)
       progress = [&](double fraction, const std::string&) {
@@ -199,6 +191,32 @@ class Run {
       };
     const SimulationSummary summary = simulator_.run(*planned.source, options, sink, progress);
     add(summary, result.summary);
+  }
+
+  // Of the modules, in readouts that begin with the light; parts of a run have it once.
+  void add_noise(const PlannedEvent& event, EventResult& result) {
+    if (options_.shard.index != 1) return;
+    NoiseWindow window;
+    window.readouts = event.repeats;
+    if (!event.truth.empty()) {
+      const double start = std::ranges::min(event.truth, {}, &Particle::time).time;
+      window.from += start, window.to += start;
+    }
+    const auto emitter = event.sources.front().source->emitting_module();
+    const auto hits = noise_hits(simulator_.model(), window, emitter, options_.settings.seed, stream_);
+    write(hits, event, result);
+    result.summary.hits += hits.size();
+    for (std::size_t i = 0; i < hits.size(); ++i) result.summary.weights.add(1);
+  }
+
+  void write(std::span<const SimulatedHit> hits, const PlannedEvent& event, EventResult& result) {
+    std::vector<Hit> portion;
+    for (const SimulatedHit& hit : hits) {
+      portion.push_back(to_hit(hit, *simulator_.model().detector));
+      portion.back().charge = static_cast<float>(portion.back().charge / event.repeats);
+      result.modules.insert(hit.module);
+    }
+    writer_.append(portion);
   }
 
   const Simulator& simulator_;

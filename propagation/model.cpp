@@ -107,11 +107,11 @@ ModelParts load_parts(const ModelRequest& request) {
 Model freeze(ModelParts parts) {
   auto ice = std::make_shared<const IceModel>(std::move(parts.ice), parts.detector);
   return {std::make_shared<const Detector>(std::move(parts.detector)), std::move(ice),
-          std::move(parts.acceptance), parts.sources};
+          std::move(parts.acceptance), parts.sources, parts.noise_rate};
 }
 
 ModelParts parts_of(const Model& model) {
-  return {model.ice->tables(), *model.detector, model.acceptance, model.sources};
+  return {model.ice->tables(), *model.detector, model.acceptance, model.sources, model.noise_rate};
 }
 
 Model load_model(const ModelRequest& request) {

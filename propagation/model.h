@@ -22,6 +22,8 @@ struct Model {
   std::shared_ptr<const IceModel> ice;
   ModuleAcceptance acceptance;
   SourceSettings sources = {};
+  double noise_rate =
+      0;  // of every module [Hz]; simulations add its hits where they are asked to (noise_hits.h)
 };
 
 // Checks the parts and works out what follows. Throws InputError (see IceModel).

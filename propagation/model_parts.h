@@ -13,6 +13,7 @@ struct ModelParts {
   Detector detector;
   ModuleAcceptance acceptance = {};
   SourceSettings sources = {};
+  double noise_rate = 0;  // of every module [Hz]
 };
 
 }  // namespace floe

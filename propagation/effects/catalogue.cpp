@@ -30,7 +30,8 @@
   EFFECT(geometry_offset)       \
   EFFECT(flasher_profile)       \
   EFFECT(time_offset)           \
-  EFFECT(flasher_brightness)
+  EFFECT(flasher_brightness)    \
+  EFFECT(noise)
 
 namespace floe {
 

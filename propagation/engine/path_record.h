@@ -22,9 +22,10 @@ class PathRecord {
   const PathScores& scores() const { return scores_; }
 
   // A straight piece in a direction of these components along the flow, across it and up; K: factors of the
-  // absorption anisotropy.
-  void begin_piece(const std::array<double, 3>& n, const std::array<double, 3>& K) {
+  // absorption anisotropy; `distance`: of its beginning along the direction of 1D tilt [m].
+  void begin_piece(const std::array<double, 3>& n, const std::array<double, 3>& K, double distance) {
     flights_.clear();
+    distance_ = distance;
     const double factor = absorption_anisotropy_factor(K[0], K[1], K[2], n[0], n[1], n[2]);
     for (std::size_t i = 0; i < 3; ++i) anisotropy_slope_[i] = factor * factor * K[i] * n[i] * n[i];
   }
@@ -34,6 +35,8 @@ class PathRecord {
     PathScores::Layer& score = at(layer);
     score.absorption -= length * absorption / isotropic;
     score.scattering -= length;
+    score.tilted_absorption -= distance_ * length * absorption / isotropic;
+    score.tilted_scattering -= distance_ * length;
     score.length += length;
     for (std::size_t i = 0; i < 3; ++i)
       scores_.absorption_anisotropy[i] += length * absorption * anisotropy_slope_[i];
@@ -42,7 +45,10 @@ class PathRecord {
     flights_.push_back({layer, length});
   }
 
-  void scatter(int layer, double geometric_scattering) { at(layer).scattering += 1 / geometric_scattering; }
+  void scatter(int layer, double geometric_scattering) {
+    at(layer).scattering += 1 / geometric_scattering;
+    at(layer).tilted_scattering += distance_ / geometric_scattering;
+  }
 
   // The birefringent step at the piece's end, by moments of its normals g. Its widths' squares grow with V,
   // the diffusion strength integrated along the piece: (g^2 - 1)/(2V) for each of the two. The mean grows
@@ -65,6 +71,7 @@ class PathRecord {
   PathScores scores_;
   std::array<double, 3> anisotropy_slope_{};
   std::vector<Flight> flights_;  // of the piece
+  double distance_ = 0;          // of the piece, along the direction of 1D tilt
 };
 
 }  // namespace floe

@@ -31,6 +31,9 @@ struct PathScores {
   struct Layer {
     double absorption = 0, scattering = 0, diffusion = 0, deflection = 0;
     double length = 0;  // of the path in the layer [m]
+    // Absorption and scattering again, each bit of path times its distance [m] from the frame's origin along
+    // the direction of 1D tilt, as tilt's shift is taken: where the piece began.
+    double tilted_absorption = 0, tilted_scattering = 0;
   };
   std::vector<Layer> layers;
   // With respect to the absorption anisotropy's normalised factors (K1, K2, Kz).

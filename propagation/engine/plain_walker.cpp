@@ -274,7 +274,8 @@ class PlainWalker : public PhotonWalker, public PathTracer {
   }
 
   void record_flight(const Photon& photon, const Piece& piece, double length, PathRecord& record) const {
-    record.begin_piece(flow_components(photon.direction), ice_.absorption_anisotropy());
+    record.begin_piece(flow_components(photon.direction), ice_.absorption_anisotropy(),
+                       distance_along_tilt(photon.position));
     if (piece.in_column) return;
     piece_in_ice(photon, length, [&](int layer, double flown, double isotropic, double absorption) {
       record.fly(layer, flown, isotropic, absorption);

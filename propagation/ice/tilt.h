@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "geometry/detector.h"
@@ -11,6 +12,10 @@
 namespace floe {
 
 inline constexpr double tilt_lines_direction = 225 * degree;  // azimuth along which 1D tilt varies
+// From the frame's origin [m].
+inline double distance_along_tilt(const Vec3& place) {
+  return place.x() * std::cos(tilt_lines_direction) + place.y() * std::sin(tilt_lines_direction);
+}
 
 // The layer shift [m] as a function of place [m]; none, 1D along 225 deg, or 2D on an oblique grid
 // (arXiv:2307.13951), which takes precedence. Depth and, in 1D, distance are extrapolated linearly; in 2D a

@@ -38,7 +38,7 @@ class Trials {
           return request;
         },
         data);
-    const SuspectPlan plan = plan_suspects(base_, flasher_depths(data, *base_.detector));
+    const SuspectPlan plan = plan_suspects(base_, flasher_depths(data, *base_.detector), data.runs.size());
     SurveyPlan survey_plan{
         .parameters = plan.parameters, .pair_light = options_.pair_light, .turns_by_pairs = true};
     const Survey survey = survey_data(base_, data, look, survey_plan, options_,

@@ -20,7 +20,7 @@ constexpr double leading_share = 0.35;  // of the best gain: suspects that are f
 constexpr std::size_t most_trials = 3;
 constexpr double hits_of_contest = 6e4;  // of each run, at least: rivals are alike
 constexpr double confirmed_share = 0.4;  // of the gain that a score promised, by a fit
-constexpr int rounds = 4, rounds_of_folds = 2, rounds_of_contest = 5;
+constexpr int rounds = 4, rounds_of_layers = 7, rounds_of_folds = 3, rounds_of_contest = 5;
 constexpr double still_there = 3;  // standard deviations, of effects when another one has come in
 
 void check_options(const DiagnosisOptions& options, std::size_t runs) {
@@ -94,7 +94,7 @@ class Diagnoser {
   bool look_at(const Model& model, int step) {
     const double from = begin(step), length = begin(step + 1) - from;
     stage(from, from + length * 0.4, step == 0 ? "looking for a gap" : "looking again");
-    const SuspectPlan plan = plan_suspects(model, flasher_depths(data_, *model.detector));
+    const SuspectPlan plan = plan_suspects(model, flasher_depths(data_, *model.detector), data_.runs.size());
     SurveyPlan survey_plan{.parameters = plan.parameters};
     survey_plan.stream = static_cast<std::uint64_t>(step);
     const Survey survey = survey_data(model, data_, look_, survey_plan, options_, part());
@@ -247,12 +247,8 @@ class Diagnoser {
 
   // Grains differ from layer to layer, and with them the strength of birefringence (arXiv:2107.08692).
   void refine_by_layers() {
-    constexpr double beyond = 50;  // the outermost flashers [m]
-    constexpr int most_layers = 10;
     const Span span = spans_.back();
-    const FlasherDepths flashers = flasher_depths(data_, *base_.detector);
-    const DepthRange range{flashers.shallowest - beyond, flashers.deepest + beyond,
-                           std::min(most_layers, static_cast<int>(data_.runs.size()))};
+    const DepthRange range = layers_of(flasher_depths(data_, *base_.detector), data_.runs.size());
     if (range.groups < 2) return;
     stage(from_, to_, "fitting birefringence layer by layer");
     std::vector<IceParameter> layered = with({});
@@ -263,7 +259,7 @@ class Diagnoser {
       layered.push_back(std::move(layer));
     }
     try {
-      const IceFit fit = this->fit(data_, layered, rounds);
+      const IceFit fit = this->fit(data_, layered, rounds_of_layers);
       if (spread_of_layers(fit, span.first) < 2 * (range.groups - 1)) return;
       spans_.back().count = layered.size() - span.first;
       NamedEffect& effect = result_.effects.back();
@@ -314,7 +310,7 @@ class Diagnoser {
         effect.values.push_back(fit.value(i));
         effect.errors.push_back(fit.error(i));
       }
-      if (is_layered(effect)) take_mean(spans_[e], fit, effect);
+      if (is_layered(effect) && effect.parameters.front().logarithmic) take_mean(spans_[e], fit, effect);
     }
   }
 

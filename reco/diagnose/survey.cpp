@@ -144,7 +144,8 @@ class Surveyor {
             settings_.oversize,
             settings_.seed,
             first_stream + plan_.stream * streams_a_survey + r * streams_a_run + purpose,
-            settings_.threads};
+            settings_.threads,
+            noise_window(data_.runs[r], data_.runs[r].charge / look_.hits_per_photon[r])};
   }
 
   void look_at(std::size_t r) {
@@ -191,9 +192,9 @@ class Surveyor {
       slopes[fold].parameters = smooth.fold[fold];
       slopes[fold].raw = light.folds[fold].slopes.array().colwise() / light.folds[fold].counts.array().max(1);
     }
-    // Pairs have photons of their own, so that both halves of theirs may serve.
+    // Where pairs have photons of their own, both halves of theirs may serve.
     for (Eigen::Index p = 0; p < slopes[0].parameters.cols(); ++p)
-      if (!light.symmetric[static_cast<std::size_t>(p)])
+      if (light.independent[static_cast<std::size_t>(p)])
         slopes[0].parameters.col(p) = slopes[1].parameters.col(p) =
             (smooth.fold[0].col(p) + smooth.fold[1].col(p)) / 2;
     if (plan_.places) {

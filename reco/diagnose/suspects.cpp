@@ -20,11 +20,12 @@ constexpr double widest_band = 160;              // [m]; wider ones are no bands
 
 using Kind = SurveyColumn::Kind;
 
-// What brightness and time zero of each run take up, and what bands and places say.
+// All but what brightness and time zero of each run take up, and what layers, bands and places say.
 bool is_plain(const std::string& effect) {
   static const std::vector<std::string> others{
-      "overall-efficiency", "flasher-brightness", "time-offset",       "absorption-layer",
-      "scattering-layer",   "module-efficiency",  "string-efficiency", "geometry-offset"};
+      "overall-efficiency", "flasher-brightness", "time-offset",
+      "absorption-layer",   "scattering-layer",   "module-efficiency",
+      "string-efficiency",  "geometry-offset",    "tilt"};
   return std::find(others.begin(), others.end(), effect) == others.end();
 }
 
@@ -37,7 +38,8 @@ bool matters(const Model& model, const IceParameter& parameter) {
     return moved.ice->hash() != model.ice->hash() || !(moved.sources == model.sources) ||
            moved.detector->hash() != model.detector->hash() ||
            moved.acceptance.angular.coefficients() != model.acceptance.angular.coefficients() ||
-           moved.acceptance.cable_radius != model.acceptance.cable_radius;
+           moved.acceptance.cable_radius != model.acceptance.cable_radius ||
+           moved.noise_rate != model.noise_rate;
   } catch (const std::exception&) {
     return false;  // it makes no sense in this model
   }
@@ -103,7 +105,13 @@ void add_bands(const SuspectPlan& plan, const char* effect, int first, std::vect
 
 }  // namespace
 
-SuspectPlan plan_suspects(const Model& model, const FlasherDepths& flashers) {
+DepthRange layers_of(const FlasherDepths& flashers, std::size_t runs) {
+  constexpr double beyond = 50;  // the outermost flashers [m]
+  constexpr std::size_t most = 10;
+  return {flashers.shallowest - beyond, flashers.deepest + beyond, static_cast<int>(std::min(most, runs))};
+}
+
+SuspectPlan plan_suspects(const Model& model, const FlasherDepths& flashers, std::size_t runs) {
   SuspectPlan plan;
   for (const Effect* effect : effects()) {
     if (!is_plain(effect->name())) continue;
@@ -112,6 +120,10 @@ SuspectPlan plan_suspects(const Model& model, const FlasherDepths& flashers) {
       if (matters(model, p)) plan.parameters.push_back(std::move(p));
     }
   }
+  // Ice of other ages follows the bed below in its own way: a slope for each depth (arXiv:1301.5361).
+  plan.first_tilt = static_cast<int>(plan.parameters.size());
+  plan.tilt = layers_of(flashers, runs);
+  for (IceParameter& p : tilt_parameters(plan.tilt)) plan.parameters.push_back(std::move(p));
   const auto& layers = model.ice->tables().layers;
   DepthRange range{std::max(flashers.shallowest - beyond_flashers, layers.front().depth),
                    std::min(flashers.deepest + beyond_flashers, layers.back().depth), 1};
@@ -125,11 +137,14 @@ SuspectPlan plan_suspects(const Model& model, const FlasherDepths& flashers) {
 
 std::vector<Suspect> suspects_of(const Survey& survey, const SuspectPlan& plan) {
   std::vector<Suspect> suspects;
-  for (int p = 0; p < plan.first_layer; ++p) {
+  for (int p = 0; p < plan.first_tilt; ++p) {
     const std::string& effect = plan.parameters[static_cast<std::size_t>(p)].effect->effect;
     if (suspects.empty() || suspects.back().effect != effect) suspects.push_back({effect, {}, {}});
     suspects.back().amplitudes.push_back({{p, 1.0}});
   }
+  suspects.emplace_back().effect = "tilt";
+  suspects.back().layers = plan.tilt;
+  for (int p = plan.first_tilt; p < plan.first_layer; ++p) suspects.back().amplitudes.push_back({{p, 1.0}});
   add_bands(plan, "absorption-layer", plan.first_layer, suspects);
   add_bands(plan, "scattering-layer", plan.first_layer + plan.bands.groups, suspects);
   for (std::size_t c = 0; c < survey.columns.size(); ++c) {
@@ -169,6 +184,10 @@ std::vector<IceParameter> fit_parameters(const Suspect& suspect, const Eigen::Ve
       IceParameter& p = parameters.back();
       p.start = within(p, p.start + amplitudes(static_cast<Eigen::Index>(i)));
     }
+  } else if (suspect.layers) {
+    parameters = tilt_parameters(*suspect.layers);
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      parameters[i].start = within(parameters[i], amplitudes(static_cast<Eigen::Index>(i)));
   } else {
     Eigen::Index i = 0;
     for (const EffectParameter& parameter : find_effect(suspect.effect).parameters(parts_of(base))) {
@@ -182,6 +201,7 @@ std::vector<IceParameter> fit_parameters(const Suspect& suspect, const Eigen::Ve
 }
 
 double null_number(const IceParameter& parameter, const Model& base) {
+  if (!parameter.family.empty()) return 0;  // factor 1, slope 0
   const std::size_t dot = parameter.name.find('.');
   for (const EffectParameter& p : find_effect(parameter.name.substr(0, dot)).parameters(parts_of(base)))
     if (p.name == parameter.name.substr(dot + 1)) return p.null_value;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,17 +25,23 @@ struct Suspect {
   std::map<std::string, double> place;  // string, dom; depth and width of a band [m]
   // By amplitude: columns of the survey and their weights in it.
   std::vector<std::vector<std::pair<int, double>>> amplitudes;
-  double largest = 1e9;  // amplitude that makes sense
+  double largest = 1e9;                   // amplitude that makes sense
+  std::optional<DepthRange> layers = {};  // of effects that differ from layer to layer: an amplitude each
 };
 
 // The parameters of all effects of the ice, modules and flashers that need no place, and layer by layer those
-// of bands: what a survey asks for. The layers come last: absorption, then scattering.
+// of tilt and of bands: what a survey asks for. The layers come last: tilt, absorption, scattering.
 struct SuspectPlan {
   std::vector<IceParameter> parameters;
+  DepthRange tilt;
   BandGrid bands;
-  int first_layer = 0;  // index of the first group's absorption
+  int first_tilt = 0, first_layer = 0;  // indices of the first slope, of the first group's absorption
 };
-SuspectPlan plan_suspects(const Model& model, const FlasherDepths& flashers);
+// `runs`: no more layers of an effect that differs from one to the next are told apart.
+SuspectPlan plan_suspects(const Model& model, const FlasherDepths& flashers, std::size_t runs);
+
+// Layers that flashers tell apart.
+DepthRange layers_of(const FlasherDepths& flashers, std::size_t runs);
 
 std::vector<Suspect> suspects_of(const Survey& survey, const SuspectPlan& plan);
 

@@ -20,8 +20,8 @@ namespace floe {
 namespace {
 
 constexpr double longest_step = 0.7;  // of a round, in the parameter's scale
-// Steps so small, in their errors, are the last: root mean square and largest. New simulations in every round
-// keep them from getting much smaller.
+// Two steps so small, in their errors, are the last: root mean square and largest. New simulations in every
+// round keep them from getting much smaller; one step alone may be small by chance, on its way.
 constexpr double settled = 0.8, settled_most = 2.5;
 // Far from the streams of simulated data.
 constexpr std::uint64_t first_stream = std::uint64_t{1} << 40;
@@ -81,7 +81,8 @@ class Fit {
             options_.oversize,
             options_.seed,
             first_stream + static_cast<std::uint64_t>(round_) * streams_a_round + r * streams_a_run + purpose,
-            options_.threads};
+            options_.threads,
+            noise_window(data_.runs[r], states_[r].brightness)};
   }
 
   // How much light of each run is seen, in the starting model, and which receivers cannot be right.
@@ -120,6 +121,7 @@ class Fit {
                                            {options_.smoothness, options_.amplitude}, longest_step);
     double furthest = 0, squares = 0;
     const double share = physical_share(solution.step);
+    const std::vector<double> before = fit_.numbers;
     for (std::size_t p = 0; p < count(); ++p) {
       const auto i = static_cast<Eigen::Index>(p);
       fit_.numbers[p] += share * solution.step(i);
@@ -135,7 +137,12 @@ class Fit {
     fit_.covariance = solution.covariance;
     fit_.light_errors = solution.light_errors;
     const double mean = std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, count())));
-    fit_.converged = mean < settled && furthest < settled_most;
+    const bool small = mean < settled && furthest < settled_most;
+    fit_.converged = small && small_before_;
+    small_before_ = small;
+    // Where they end differs by the noise of their simulations alone: the middle has less of it.
+    if (fit_.converged)
+      for (std::size_t p = 0; p < count(); ++p) fit_.numbers[p] = (before[p] + fit_.numbers[p]) / 2;
   }
 
   // How much of a step leads to ice that can be: crystals must not scatter more than their layer does.
@@ -225,6 +232,7 @@ class Fit {
   const Progress& progress_;
   std::vector<RunState> states_;
   int round_ = 0;
+  bool small_before_ = false;  // whether the step of the round before was
   IceFit fit_;
 };
 

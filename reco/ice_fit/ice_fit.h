@@ -51,7 +51,7 @@ struct IceFit {
 };
 
 // Gauss-Newton rounds: simulate every run in the current model, read slopes off the detected photons' paths,
-// solve for the parameters (each run's brightness and time zero fitted along), until the step is
+// solve for the parameters (each run's brightness and time zero fitted along), until two steps are
 // small. Throws UsageError for options out of range, NoResult when no run has light to fit.
 IceFit fit_ice(const Model& base, const FlasherData& data, const std::vector<IceParameter>& parameters,
                const IceFitOptions& options, const Progress& progress = {});

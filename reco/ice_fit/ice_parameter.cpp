@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "data/base/error.h"
+#include "propagation/effects/rising_layers.h"
 #include "propagation/effects/row_scaling.h"
 
 namespace floe {
@@ -44,9 +45,23 @@ IceParameter factor_of(const FamilyTraits& traits, double depth) {
   return parameter;
 }
 
+double thickness_of_group(const DepthRange& range) {
+  return (range.bottom - range.top) / range.groups;
+}
+double middle_of_group(int group, const DepthRange& range) {
+  return range.top + (group + 0.5) * thickness_of_group(range);
+}
 int group_of(double depth, const DepthRange& range) {
-  const double share = (depth - range.top) / (range.bottom - range.top);
-  return std::clamp(static_cast<int>(std::floor(share * range.groups)), 0, range.groups - 1);
+  const double share = (depth - range.top) / thickness_of_group(range);
+  return std::clamp(static_cast<int>(std::floor(share)), 0, range.groups - 1);
+}
+
+// 1 in the middle of a group, 0 in the middle of all others, linear in between; the outermost go on.
+double share_of_group(int group, double depth, const DepthRange& range) {
+  const double middle = middle_of_group(0, range);
+  const double at =
+      std::clamp((depth - middle) / thickness_of_group(range), 0.0, static_cast<double>(range.groups - 1));
+  return std::max(0.0, 1 - std::abs(at - group));
 }
 
 }  // namespace
@@ -55,7 +70,7 @@ std::vector<IceParameter> layer_parameters(LayerFamily family, const DepthRange&
   const FamilyTraits& traits = traits_of(family);
   std::vector<IceParameter> parameters;
   for (int group = 0; group < range.groups; ++group) {
-    const double depth = range.top + (group + 0.5) * (range.bottom - range.top) / range.groups;
+    const double depth = middle_of_group(group, range);
     IceParameter parameter = factor_of(traits, depth);
     parameter.name = fmt::format("{} {:.0f} m", traits.name, depth);
     parameter.apply = [&traits, range, group, family](double number, ModelParts& model) {
@@ -63,6 +78,28 @@ std::vector<IceParameter> layer_parameters(LayerFamily family, const DepthRange&
       if (family == LayerFamily::birefringence && !numbers) numbers = published_birefringence();
       for (IceLayerRow& row : model.ice.layers)
         if (group_of(row.depth, range) == group) traits.scale(model.ice, row, std::exp(number));
+    };
+    parameters.push_back(std::move(parameter));
+  }
+  return parameters;
+}
+
+std::vector<IceParameter> tilt_parameters(const DepthRange& range) {
+  // Published slopes stay within 50 m/km (arXiv:2307.13951); light follows a change to first order as far as
+  // dust layers are thick: 10 m at 300 m.
+  constexpr double usual = 30, most = 300;
+  std::vector<IceParameter> parameters;
+  for (int group = 0; group < range.groups; ++group) {
+    IceParameter parameter;
+    parameter.family = "tilt";
+    parameter.unit = "m/km";
+    parameter.depth = middle_of_group(group, range);
+    parameter.name = fmt::format("tilt {:.0f} m", parameter.depth);
+    parameter.low = -most, parameter.high = most;
+    parameter.scale = usual;
+    parameter.apply = [range, group](double number, ModelParts& model) {
+      if (number == 0) return;
+      add_rise([&](double depth) { return number * share_of_group(group, depth, range); }, model);
     };
     parameters.push_back(std::move(parameter));
   }

@@ -21,7 +21,8 @@ struct IceParameter {
   double start = 0, low = 0, high = 0;
   double scale = 1;  // of a large change: no step of the fit is longer
   double prior = 0;  // width of a Gaussian about the start; 0: that of its family, or none
-  // Neighbours of one family, in order of depth, are held together by the smoothness prior.
+  // Neighbours of one family, in order of depth, are held together by the smoothness prior, in units of
+  // `scale`.
   std::string family;
   double depth = 0;  // of the middle, for families over depth [m]
   // How it changes the model: a change of its own, or a parameter of an effect of the catalogue.
@@ -40,6 +41,9 @@ struct DepthRange {
 // or birefringence (strength; a model without birefringence starts from the published numbers at strength 1).
 enum class LayerFamily { absorption, scattering, birefringence };
 std::vector<IceParameter> layer_parameters(LayerFamily family, const DepthRange& range);
+// Slopes of the layers along 225 deg [m/km], in addition to the model's tilt, at the middle of each group of
+// layers, linear in between: the family "tilt".
+std::vector<IceParameter> tilt_parameters(const DepthRange& range);
 // "absorption", "scattering", "birefringence"; none for any other name.
 std::optional<LayerFamily> layer_family_of(std::string_view name);
 // One factor for the rows of the layer table from depth `top` to depth `bottom` [m], both inclusive; rows

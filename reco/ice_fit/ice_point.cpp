@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "data/base/error.h"
+#include "reco/ice_fit/noise_slopes.h"
 #include "reco/ice_fit/run_likelihood.h"
 
 namespace floe {
@@ -25,6 +26,10 @@ IcePoint::IcePoint(const Model& base, const std::vector<IceParameter>& parameter
     const bool downwards = numbers_[p] > 0 && numbers_[p] - size >= parameters_[p].low;
     const double step = downwards ? -size : size;
     const Model changed = moved(p, step);
+    if (changed.noise_rate != model_.noise_rate) {
+      of_noise_.push_back({p, (changed.noise_rate - model_.noise_rate) / step});
+      continue;
+    }
     const bool of_turns = parameters_[p].effect && parameters_[p].effect->effect == "birefringence";
     if (!(of_turns && turns_by_pairs) && map_.add(static_cast<int>(p), changed, step)) continue;
     if (auto change = AcceptanceChange::between(model_, changed))
@@ -57,9 +62,24 @@ IcePoint::Light IcePoint::light(const RunRequest& request, const SimulatedRun& s
   Light result;
   result.light = light_with_slopes(model_, request, simulated, bins, map_, time_zero);
   for (const OfAcceptance& slope : of_acceptance_) add_acceptance(simulated, bins, slope, result.light);
+  for (const OfNoise& slope : of_noise_) add_noise(request, bins, slope, result.light);
   for (const std::size_t p : pairs_)
     result.propagated += add_pair(request, bins, time_zero, plan, p, result.light);
   return result;
+}
+
+// Exactly known, so that both folds may have it.
+void IcePoint::add_noise(const RunRequest& request, const RunBins& bins, const OfNoise& slope,
+                         RunLight& light) const {
+  NoiseWindow window = request.noise;
+  window.readouts *= light.photons;
+  const auto column = static_cast<Eigen::Index>(slope.parameter);
+  light.symmetric[slope.parameter] = 0;
+  light.independent[slope.parameter] = 1;
+  for (LightFold& fold : light.folds) {
+    fold.dwell.col(column) = fold.counts;
+    fold.slopes.col(column) = slope.slope * noise_of_bins(bins, window);
+  }
 }
 
 void IcePoint::add_acceptance(const SimulatedRun& simulated, const RunBins& bins, const OfAcceptance& slope,
@@ -85,6 +105,7 @@ std::uint64_t IcePoint::add_pair(const RunRequest& request, const RunBins& bins,
   // It acts all over the ice: light dwells in it wherever it goes.
   for (LightFold& fold : light.folds) fold.dwell.col(column) = fold.counts;
   light.symmetric[parameter] = 0;
+  light.independent[parameter] = plan.stream != 0;
   double down = std::max(-reach, p.low - number), up = std::min(reach, p.high - number);
   const Model below = moved_towards(parameter, down), above = moved_towards(parameter, up);
   RunRequest less = request;

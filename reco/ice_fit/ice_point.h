@@ -52,6 +52,11 @@ class IcePoint {
     AcceptanceChange change;
     double step;
   };
+  struct OfNoise {
+    std::size_t parameter;
+    double slope;  // of the rate
+  };
+  void add_noise(const RunRequest& request, const RunBins& bins, const OfNoise& slope, RunLight& light) const;
   void add_acceptance(const SimulatedRun& simulated, const RunBins& bins, const OfAcceptance& slope,
                       RunLight& light) const;
   std::uint64_t add_pair(const RunRequest& request, const RunBins& bins, double time_zero,
@@ -63,6 +68,7 @@ class IcePoint {
   Model model_;
   ScoreMap map_;
   std::vector<OfAcceptance> of_acceptance_;
+  std::vector<OfNoise> of_noise_;
   std::vector<std::size_t> pairs_;  // all other parameters that weights of paths cannot express
 };
 

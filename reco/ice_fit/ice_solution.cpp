@@ -32,15 +32,16 @@ PriorRows prior_rows(const std::vector<IceParameter>& parameters, const std::vec
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const IceParameter& p = parameters[i];
     const auto column = static_cast<Eigen::Index>(i);
-    const double width = p.prior > 0 ? p.prior : p.family.empty() ? 0 : priors.amplitude;
+    const double width = p.prior > 0 ? p.prior : p.family.empty() ? 0 : priors.amplitude * p.scale;
     if (width > 0) {
       rows.emplace_back(Eigen::VectorXd::Unit(size, column) / width);
       values.push_back((p.start - numbers[i]) / width);
     }
     if (i == 0 || p.family.empty() || parameters[i - 1].family != p.family) continue;
+    const double difference = priors.smoothness * p.scale;
     rows.emplace_back((Eigen::VectorXd::Unit(size, column) - Eigen::VectorXd::Unit(size, column - 1)) /
-                      priors.smoothness);
-    values.push_back((numbers[i - 1] - numbers[i]) / priors.smoothness);
+                      difference);
+    values.push_back((numbers[i - 1] - numbers[i]) / difference);
   }
   PriorRows prior{Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()), size),
                   Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows.size()))};

@@ -17,7 +17,7 @@ double variance_of_difference(Eigen::Index bins, double light) {
 
 ModelJudge::ModelJudge(const Model& base, const FlasherData& data, const FirstLook& look,
                        const RunSettings& settings, std::uint64_t stream)
-    : data_(data), settings_(settings), stream_(stream) {
+    : data_(data), settings_(settings), stream_(stream), hits_per_photon_(look.hits_per_photon) {
   for (std::size_t r = 0; r < data_.runs.size(); ++r) {
     const RunData& run = data_.runs[r];
     photons_.push_back(photons_wanted(run, look.hits_per_photon[r], settings_.light));
@@ -34,7 +34,8 @@ RunRequest ModelJudge::request(std::size_t run, std::uint64_t purpose, double ph
           settings_.oversize,
           settings_.seed,
           stream_ + purpose * data_.runs.size() + run,
-          settings_.threads};
+          settings_.threads,
+          noise_window(data_.runs[run], data_.runs[run].charge / hits_per_photon_[run])};
 }
 
 RunMeasurement ModelJudge::measure(const Model& model, std::size_t run) const {

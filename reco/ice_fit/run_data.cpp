@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -32,6 +33,10 @@ RunData run_data(const Detector& detector, const Event& event) {
     if (!data.used[module]) continue;
     data.pulses.push_back({module, hit.time, hit.charge * event.repeats});
     data.charge += data.pulses.back().charge;
+  }
+  if (!data.pulses.empty()) {
+    const auto [first, last] = std::ranges::minmax(data.pulses, {}, &RunData::Pulse::time);
+    data.first = first.time, data.last = last.time;
   }
   return data;
 }

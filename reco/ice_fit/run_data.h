@@ -21,8 +21,9 @@ struct RunData {
   FlasherRun run;
   double repeats = 1;
   std::vector<Pulse> pulses;
-  std::vector<char> used;  // by module: looked at in this run
-  double charge = 0;       // of used modules
+  std::vector<char> used;      // by module: looked at in this run
+  double charge = 0;           // of used modules
+  double first = 0, last = 0;  // times of the first and the last pulse [ns]
 
   Eigen::VectorXd counts(const RunBins& bins) const;
 };

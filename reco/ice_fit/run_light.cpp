@@ -55,6 +55,10 @@ SimulatedRun simulate_run(const Model& model, const RunRequest& request) {
                               run.hits.insert(run.hits.end(), hits.begin(), hits.end());
                             })
                        .propagated;
+  NoiseWindow noise = request.noise;
+  noise.readouts *= request.photons;
+  const auto hits = noise_hits(model, noise, source.emitting_module(), request.seed, request.stream);
+  run.hits.insert(run.hits.end(), hits.begin(), hits.end());
   return run;
 }
 
@@ -62,6 +66,7 @@ RunLight count_light(const SimulatedRun& run, const RunBins& bins, double photon
   RunLight light;
   light.photons = photons / 2;
   light.symmetric.assign(static_cast<std::size_t>(parameters), 1);
+  light.independent.assign(static_cast<std::size_t>(parameters), 0);
   for (LightFold& fold : light.folds) fold = empty_fold(bins.size(), parameters);
   for (const SimulatedHit& hit : run.hits) {
     const int bin = bins.bin(hit.module, hit.time);
@@ -77,9 +82,12 @@ RunLight count_light(const SimulatedRun& run, const RunBins& bins, double photon
 RunLight light_with_slopes(const Model& model, const RunRequest& request, const SimulatedRun& run,
                            const RunBins& bins, const ScoreMap& map, double time_zero) {
   RunLight light = count_light(run, bins, request.photons, map.parameters());
+  for (int p = 0; p < map.parameters(); ++p)
+    light.symmetric[static_cast<std::size_t>(p)] = map.is_symmetric(p);
   std::vector<std::uint64_t> photons;
   for (const SimulatedHit& hit : run.hits)
-    if ((photons.empty() || photons.back() != hit.photon) && bins.bin(hit.module, hit.time) >= 0)
+    if (hit.photon < first_noise_hit && (photons.empty() || photons.back() != hit.photon) &&
+        bins.bin(hit.module, hit.time) >= 0)
       photons.push_back(hit.photon);
   const Vec3 flasher = model.detector->modules()[model.detector->index_of(request.run.module)].position;
   light.places = bin_places(bins, *model.detector, flasher, model.ice->flow_azimuth());

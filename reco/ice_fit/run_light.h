@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "data/flasher_run.h"
+#include "propagation/engine/noise_hits.h"
 #include "propagation/model.h"
 #include "reco/ice_fit/run_bins.h"
 #include "reco/ice_fit/score_map.h"
@@ -29,8 +30,9 @@ struct RunLight {
   LightFold folds[2];
   double photons = 0;      // N that each fold stands for (FlasherSettings::photons)
   Eigen::MatrixXd places;  // of the bins, for smooth slopes
-  // By parameter: slopes of weights, which are of the ice alone; not those of pairs.
-  std::vector<char> symmetric;
+  // By parameter: whether slopes have the symmetry of the ice about the flasher, and whether they come from
+  // photons of their own.
+  std::vector<char> symmetric, independent;
 };
 
 struct RunRequest {
@@ -39,6 +41,8 @@ struct RunRequest {
   double oversize = 16;
   std::uint64_t seed = 1, stream = 0;
   int threads = 0;
+  // In which noise is simulated, too; readouts of one N.
+  NoiseWindow noise = {0, 0, 0};
 };
 
 // All hits of a run.

@@ -49,6 +49,10 @@ double photons_wanted(const RunData& run, double hits_per_photon, const LightBud
   return std::min(budget.most_photons, hits / hits_per_photon);
 }
 
+NoiseWindow noise_window(const RunData& run, double brightness) {
+  return {run.first, run.last, run.repeats / brightness};
+}
+
 Scout scout_run(const Model& model, RunRequest request, double time_zero) {
   request.photons *= scout_share;
   Scout scout{simulate_run(model, request), request.photons};

@@ -14,6 +14,7 @@
 
 #include "data/base/constants.h"
 #include "propagation/ice/ice_model.h"
+#include "propagation/ice/tilt.h"
 #include "propagation/sources/flasher.h"
 #include "reco/ice_fit/score_map.h"
 #include "tests/physics/engine/test_scenes.h"
@@ -200,6 +201,33 @@ Scene widened_beam() {
   return scene;
 }
 
+// The shells in ice whose dust grows by a factor of e over 30 m of depth, in layers of 1 m. Modules are told
+// apart by which side of the light they lie on, along the direction in which layers will rise, and by height.
+Scene dustier_below() {
+  Scene scene = shells();
+  scene.tables.configuration.birefringence.reset();
+  scene.tables.layers.clear();
+  for (int depth = 1850; depth <= 2050; ++depth) {
+    IceLayerRow row;
+    row.depth = depth;
+    const double dust = std::exp((depth - origin_depth) / 30);
+    row.effective_scattering = dust / 10;
+    row.dust_absorption = dust / 20;
+    scene.tables.layers.push_back(row);
+  }
+  scene.selections = {{"along",
+                       [](const SimulatedHit&, const Vec3& module) {
+                         return distance_along_tilt(module) > 5 && std::abs(module.z()) < 1;
+                       }},
+                      {"against",
+                       [](const SimulatedHit&, const Vec3& module) {
+                         return distance_along_tilt(module) < -5 && std::abs(module.z()) < 1;
+                       }},
+                      {"above", [](const SimulatedHit&, const Vec3& module) { return module.z() > 5; }},
+                      {"all", [](const SimulatedHit&, const Vec3&) { return true; }}};
+  return scene;
+}
+
 // A number of the ice, of which `apply` adds `number` (to a logarithm, mostly).
 struct Number {
   const char* name;
@@ -258,6 +286,10 @@ const Number numbers[] = {
        const double k1 = tables.configuration.absorption_anisotropy->k1 + number;
        tables.configuration.absorption_anisotropy =
            IceConfiguration::AbsorptionAnisotropy{k1, -k1 / 2, -k1 / 2};
+     }},
+    {"rise_of_layers", 0.2, 1e8, 8e8, dustier_below,
+     [](double number, IceTables& tables) {
+       tables.tilt_lines = TiltLines{{1, 2}, {0, 100}, {1800, 2100}, {{0, 100 * number}, {0, 100 * number}}};
      }},
     {"birefringence_of_a_beam", 0.3, 7e7, 1.2e8, widened_beam,
      [](double number, IceTables& tables) {
@@ -350,7 +382,7 @@ class Scores : public ::testing::TestWithParam<Number> {};
 // The light at both ends of a range against the slope in between, by Simpson's rule: unlike a difference
 // against the slope in the middle alone this needs no small step, in which the difference would drown. Seen,
 // at four errors, would be scores wrong by 1% for absorption (3% of the layers above alone), 8% for
-// scattering (11% above), 5% for birefringence (in the beam ahead), 3% for deflection (in the beam) and 5%
+// scattering (11% above), 5% for birefringence (in the beam ahead), 3% for deflection (in the beam), 5%
 // for the anisotropy; and parts that are forgotten: what birefringence takes out of scattering is worth 0.3
 // in late light, a dozen errors.
 TEST_P(Scores, AreTheSlopesOfTheLight) {

@@ -33,7 +33,7 @@ TEST(Probabilities, BeyondTheDrawsFallExponentially) {
 class Suspects : public ::testing::Test {
  protected:
   const Model model_ = load_model({});
-  const SuspectPlan plan_ = plan_suspects(model_, {1700, 1900});
+  const SuspectPlan plan_ = plan_suspects(model_, {1700, 1900}, 3);
 
   bool planned(const std::string& name) const {
     return std::any_of(plan_.parameters.begin(), plan_.parameters.end(),
@@ -42,8 +42,9 @@ class Suspects : public ::testing::Test {
 };
 
 TEST_F(Suspects, AreTheEffectsThatTheDataCanTell) {
-  for (const char* name : {"birefringence.strength", "absorption-anisotropy.k1", "flow-azimuth.azimuth",
-                           "tilt.slope", "scattering-function.g", "hole-ice.radius", "flasher-profile.width"})
+  for (const char* name :
+       {"birefringence.strength", "absorption-anisotropy.k1", "flow-azimuth.azimuth", "tilt 1800 m",
+        "scattering-function.g", "hole-ice.radius", "flasher-profile.width", "noise.rate"})
     EXPECT_TRUE(planned(name)) << name;
   // Taken up by each run's brightness and time zero, or judged place by place.
   for (const char* name : {"flasher-brightness.factor", "overall-efficiency.factor", "time-offset.time",
@@ -59,6 +60,11 @@ TEST_F(Suspects, BandsLieWithinTheDepthsThatFlashersReach) {
   EXPECT_LE(bands.top + bands.groups * bands.step, 2100);
   EXPECT_EQ(plan_.parameters.size(), static_cast<std::size_t>(plan_.first_layer + 2 * bands.groups));
   EXPECT_EQ(plan_.parameters[static_cast<std::size_t>(plan_.first_layer)].family, "absorption");
+}
+
+TEST_F(Suspects, TiltHasASlopeForEachRun) {
+  EXPECT_EQ(plan_.first_layer - plan_.first_tilt, 3);
+  EXPECT_EQ(plan_.parameters[static_cast<std::size_t>(plan_.first_tilt)].family, "tilt");
 }
 
 TEST_F(Suspects, BecomeParametersOfAFit) {
@@ -79,6 +85,15 @@ TEST_F(Suspects, BecomeParametersOfAFit) {
   EXPECT_EQ(of_band[0].start, 1780);
   EXPECT_NEAR(of_band[2].start, 1.5, 1e-12);
   EXPECT_EQ(text_of(band), "absorption-layer at 1760-1800 m");
+
+  Suspect tilt{"tilt", {}, {{{0, 1.0}}, {{1, 1.0}}}};
+  tilt.layers = DepthRange{1600, 2000, 2};
+  const auto slopes = fit_parameters(tilt, Eigen::Vector2d(20, -1e3), model_);
+  ASSERT_EQ(slopes.size(), 2u);
+  EXPECT_EQ(slopes[0].depth, 1700);
+  EXPECT_EQ(slopes[0].start, 20);
+  EXPECT_EQ(slopes[1].start, -2 * slopes[1].scale);  // no fit begins so far off
+  EXPECT_EQ(null_number(slopes[0], model_), 0);
 }
 
 }  // namespace

@@ -128,6 +128,31 @@ TEST(ScoreMap, AbsorptionAnisotropy) {
   EXPECT_NEAR(score / expected, 1, 1e-4);
 }
 
+// Where layers rise by d, a place has the ice that was d below. Here the ice gets clearer upwards.
+TEST(ScoreMap, RiseOfLayers) {
+  constexpr double rise = 1e-3;  // m a m
+  ModelParts base = coloured_parts();
+  for (std::size_t i = 0; i < base.ice.layers.size(); ++i)
+    base.ice.layers[i].dust_absorption = 0.01 + 1e-4 * static_cast<double>(i);
+  base.ice.tilt_lines = TiltLines{{1, 0}, {0, 1000}, {1000, 3000}, {{0, 20}, {0, 20}}};
+  ModelParts more = base;
+  for (auto& row : more.ice.tilt_lines->shifts) row[1] += 1000 * rise;
+  PathScores path = some_path();
+  for (PathScores::Layer& layer : path.layers) layer.tilted_absorption = 300 * layer.absorption;
+  // Rows are listed from the top, 10 m apart.
+  const double gradient = -1e-5 * std::pow(wavelength / 400, -1.1);
+  double expected = 0;
+  for (int i = path.lowest; i <= path.highest; ++i)
+    expected += -gradient * 300 * path.layers[static_cast<std::size_t>(i)].absorption;
+  ScoreMap map(freeze(base), wavelength, 2);
+  EXPECT_TRUE(map.add(0, freeze(more), rise));
+  Eigen::VectorXd scores, dwell;
+  map.scores(path, scores, dwell);
+  EXPECT_NEAR(scores(0) / expected, 1, 1e-3);
+  EXPECT_FALSE(map.is_symmetric(0));
+  EXPECT_TRUE(map.is_symmetric(1));
+}
+
 TEST(ScoreMap, SumsOverTheLayersOfThePath) {
   const ModelParts base = coloured_parts();
   PathScores path = some_path();
@@ -197,13 +222,9 @@ TEST(ScoreMap, RefusesIceThatPathsSayNothingOf) {
   EXPECT_TRUE(refuses([](ModelParts& parts) {
     for (IceLayerRow& row : parts.ice.layers) row.depth += step;
   }));
+  // Layers that rise on one side of a string only.
   EXPECT_TRUE(refuses([](ModelParts& parts) {
-    TiltLines tilt;
-    tilt.strings = {1, 2};
-    tilt.distances = {0, 100};
-    tilt.depths = {1000, 2000};
-    tilt.shifts = {{0, step}, {0, step}};
-    parts.ice.tilt_lines = tilt;
+    parts.ice.tilt_lines = TiltLines{{1, 2, 3}, {0, 100, 200}, {1000, 2000}, {{0, 0, 5}, {0, 0, 5}}};
   }));
   // Together with something that can be weighted, too.
   EXPECT_TRUE(refuses([](ModelParts& parts) {
