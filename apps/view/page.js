@@ -131,8 +131,9 @@ const reach = Math.max(box.x[1] - box.x[0], box.y[1] - box.y[0], box.z[1] - box.
 const floorZ = box.z[0] - 0.04 * reach;
 
 const camera = {};
-function look(yaw, pitch) {
-  Object.assign(camera, { yaw, pitch, distance: 3 * reach, target: [middle(box.x), middle(box.y), middle(box.z) - 0.02 * reach] });
+// `lens`: the eye stands so many times farther away and looks through so much longer a lens: less perspective.
+function look(yaw, pitch, lens = 1) {
+  Object.assign(camera, { yaw, pitch, lens, distance: 3 * reach, target: [middle(box.x), middle(box.y), middle(box.z) - 0.02 * reach] });
 }
 look(-60 * degree, 14 * degree);
 const window_ = { from: -Infinity, to: Infinity };  // of time [ns]
@@ -174,12 +175,12 @@ let placed = [];     // modules with light in the last picture: {module, x, y, r
 
 function projection(width, height) {
   const cy = Math.cos(camera.yaw), sy = Math.sin(camera.yaw), cp = Math.cos(camera.pitch), sp = Math.sin(camera.pitch);
-  const focal = Math.min(2.25 * height, 1.4 * width);  // from afar: little perspective, strings look upright
+  const focal = camera.lens * Math.min(2.25 * height, 1.4 * width);
   const centre = width / 2 + (width > 700 ? 90 : 0);     // the legend stands on the left
   const [tx, ty, tz] = camera.target;
   return (x, y, z) => {
     const dx = x - tx, dy = y - ty, dz = z - tz;
-    const depth = camera.distance - (dx * cp * cy + dy * cp * sy + dz * sp);
+    const depth = camera.lens * camera.distance - (dx * cp * cy + dy * cp * sy + dz * sp);
     if (depth < 1) return null;  // behind the eye
     const scale = focal / depth;
     return { x: centre + scale * (-dx * sy + dy * cy), y: 0.46 * height - scale * (-dx * sp * cy - dy * sp * sy + dz * cp), depth, scale };
@@ -220,6 +221,7 @@ function drawFloor(pen) {
 
 // A flat column that always faces the eye, to the left of the detector; dark where there is dust.
 function drawColumn(pen) {
+  if (Math.abs(camera.pitch) > 65 * degree) return;  // from above it is but a point
   const cy = Math.cos(camera.yaw), sy = Math.sin(camera.yaw), away = 0.5 * Math.hypot(box.x[1] - box.x[0], box.y[1] - box.y[0]) + 0.06 * reach;
   const at = (side, z) => [middle(box.x) + sy * (away + side), middle(box.y) - cy * (away + side), z];
   const width = 0.035 * reach;
@@ -367,7 +369,7 @@ function drawScene() {
 function drawSizes() {
   const scale = project(...camera.target)?.scale ?? 0.5;
   const decades = [];
-  for (let k = Math.floor(Math.log10(mostCharge)); decades.length < 4 && 10 ** k >= leastCharge; --k) decades.unshift(10 ** k);
+  for (let k = Math.floor(Math.log10(mostCharge)); !decades.length || (decades.length < 4 && 10 ** k >= leastCharge); --k) decades.unshift(10 ** k);
   element("sizes").replaceChildren(...decades.map((q) => {
     const item = document.createElement("span"), disc = document.createElement("i");
     disc.style.width = disc.style.height = `${Math.min(2 * Math.max(radiusOf(q) * scale, 2), 44)}px`;
@@ -592,7 +594,7 @@ const pixelOf = (t) => 8 + (t - span.low) / (span.high - span.low) * (timeline.c
 
 function drawTimeline() {
   const { pen, width, height } = penOf(timeline);
-  const bottom = height - 18, columns = Math.max(1, Math.floor((width - 16) / 3)), light = new Float64Array(columns);
+  const bottom = height - 18, columns = Math.max(1, Math.floor(Math.min((width - 16) / 3, (span.high - span.low) / binWidth))), light = new Float64Array(columns);
   const step = (span.high - span.low) / columns;
   allBins.forEach((t, i) => { const k = Math.floor((t - span.low) / step); if (k >= 0 && k < columns) light[k] += allCharges[i]; });
   const most = Math.sqrt(Math.max(1e-12, ...light)), { from, to } = shown();
@@ -600,7 +602,8 @@ function drawTimeline() {
     if (!q) return;
     const t = span.low + (k + 0.5) * step, tall = Math.max(1.5, Math.sqrt(q) / most * (bottom - 4));
     pen.fillStyle = rgb(colourAt(shadeOf(t) / (shades - 1)), t >= from && t <= to ? 1 : 0.25);
-    pen.fillRect(pixelOf(t) - 1.2, bottom - tall, 2.4, tall);
+    const wide = Math.max((width - 16) / columns - 0.6, 1);
+    pen.fillRect(pixelOf(t) - wide / 2, bottom - tall, wide, tall);
   });
   pen.strokeStyle = css("--edge");
   pen.beginPath(); pen.moveTo(8, bottom + 0.5); pen.lineTo(width - 8, bottom + 0.5); pen.stroke();
@@ -684,6 +687,7 @@ element("play").addEventListener("click", () => (playing ? stop() : play()));
 // ---- Mouse, fingers, keys --------------------------------------------------------------------------------------
 
 function turn(yaw, pitch) {
+  camera.lens = 1;
   camera.yaw += yaw;
   camera.pitch = Math.min(Math.max(camera.pitch + pitch, -89.9 * degree), 89.9 * degree);
   redraw();
@@ -764,8 +768,8 @@ function toEvent() {
   camera.distance = Math.min(Math.max(7.5 * spread, 0.25 * reach), 3 * reach);
   redraw();
 }
-const fromAbove = () => { look(-90 * degree, 89.9 * degree); redraw(); };
-const fromSide = () => { look(camera.yaw, 0); redraw(); };
+const fromAbove = () => { look(-90 * degree, 89.9 * degree, 20); redraw(); };
+const fromSide = () => { look(camera.yaw, 0, 20); redraw(); };
 function toggleTheme() {
   const root = document.documentElement;
   root.dataset.theme = root.dataset.theme === "dark" ? "light" : "dark";

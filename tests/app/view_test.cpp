@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -213,6 +214,68 @@ TEST_F(View, WorksInABrowserWithoutANetwork) {
   const std::string picture = page("page.png");
   EXPECT_EQ(picture.substr(1, 3), "PNG");
   EXPECT_GT(picture.size(), 50000u);  // an empty page of this size has some 5000 bytes
+}
+
+TEST_F(View, IsWorkedWithKeysAndMouse) {
+  const std::string browser = chromium();
+  if (browser.empty()) GTEST_SKIP() << "no Chromium is installed: the page is not opened in a browser";
+  simulate_cascade();
+  floe_well("view event.h5 -o page.html");
+  const Json data = data_of(page("page.html"));
+  std::vector<std::pair<double, std::string>> modules;
+  for (const Json& curve : data["curves"]) {
+    const auto module = curve["module"].get<std::size_t>();
+    modules.emplace_back(-curve["charge"].get<double>(), data["detector"]["string"][module].dump() + "," +
+                                                             data["detector"]["dom"][module].dump());
+  }
+  std::stable_sort(modules.begin(), modules.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  // A user's hand: what it found is left in the document.
+  const std::string hand = R"(<script>{
+    const seen = document.body.dataset, key = (name) => document.dispatchEvent(new KeyboardEvent("keydown", {key: name}));
+    seen.begin = seen.selected;
+    key("n"); seen.next = seen.selected;
+    key("Escape"); seen.nothing = "[" + seen.selected + "]";
+    const view = document.getElementById("view"), place = (type, x, y) => new PointerEvent(type, {clientX: x, clientY: y, pointerId: 1, button: 0, bubbles: true});
+    view.setPointerCapture = () => {};
+    const box = view.getBoundingClientRect();
+    for (let y = 5; y < box.height && !seen.selected; y += 4)
+      for (let x = 5; x < box.width && !seen.selected; x += 4)
+        for (const type of ["pointerdown", "pointerup"]) view.dispatchEvent(place(type, box.left + x, box.top + y));
+    seen.clicked = seen.selected;
+    key("d"); key("?"); key("t"); key("e"); key("}"); key("{");
+    seen.helped = String(!document.getElementById("help").hidden);
+    setTimeout(() => {
+      seen.window = document.getElementById("window").textContent;
+      const play = document.getElementById("play");
+      key(" "); seen.playing = String(play.textContent !== "\u25b6"); key(" "); seen.stopped = String(play.textContent === "\u25b6");
+    }, 300);
+  }</script></body>)";
+  std::string text = page("page.html");
+  text.replace(text.rfind("</body>"), 7, hand);
+  write_bytes(folder_.path() / "hand.html", text);
+  ASSERT_EQ(
+      std::system(("cd '" + folder_.path().string() + "' && timeout 60 " + browser +
+                   " --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --user-data-dir=profile "
+                   "--window-size=1200,800 --virtual-time-budget=5000 --dump-dom 'file://" +
+                   (folder_.path() / "hand.html").string() + "' >dom.html 2>log")
+                      .c_str()),
+      0)
+      << page("log");
+  const std::string dom = page("dom.html");
+  const auto seen = [&](const std::string& name) {
+    const auto at = dom.find("data-" + name + "=\"");
+    return at == dom.npos
+               ? "none"
+               : dom.substr(at + name.size() + 7, dom.find('"', at + name.size() + 7) - at - name.size() - 7);
+  };
+  EXPECT_EQ(seen("begin"), modules[0].second);
+  EXPECT_EQ(seen("next"), modules[1].second);
+  EXPECT_EQ(seen("nothing"), "[]");
+  EXPECT_NE(seen("clicked").find(','), std::string::npos) << seen("clicked");
+  EXPECT_EQ(seen("helped"), "true");
+  EXPECT_NE(seen("window").find(" ns"), std::string::npos) << seen("window");  // no longer all times
+  EXPECT_EQ(seen("playing") + seen("stopped"), "truetrue");
 }
 
 const WrongCase cases[] = {
