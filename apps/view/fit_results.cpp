@@ -21,11 +21,16 @@ Json parsed(const std::string& file) {
   }
 }
 
+// Standard deviations; none where they are not known.
 Json errors_of(const Json& fit) {
   Json errors = Json::array();
-  if (!fit.contains("covariance") || !fit.at("covariance").is_array()) return errors;
-  for (std::size_t i = 0; i < 7; ++i)
-    errors.push_back(std::sqrt(fit.at("covariance").at(i).at(i).get<double>()));
+  const auto covariance = fit.find("covariance");
+  if (covariance == fit.end() || !covariance->is_array()) return errors;
+  for (std::size_t i = 0; i < 7; ++i) {
+    const Json& variance = covariance->at(i).at(i);
+    if (!variance.is_number()) return Json::array();
+    errors.push_back(std::sqrt(variance.get<double>()));
+  }
   return errors;
 }
 
@@ -41,15 +46,19 @@ FittedCascade fitted(const Json& fit, const std::string& label) {
           errors_of(fit)};
 }
 
+// A fit that found nothing has nulls for its values.
+void add_fit(const Json& fit, const std::string& label, FitResults& results) {
+  if (fit.is_object() && fit.at("x").is_number()) results.fits.push_back(fitted(fit, label));
+}
+
 FitResults results_of(const Json& event) {
-  FitResults results{event.value("status", "ok"), {}};
-  if (event.contains("fit") && event.at("fit").is_object())
-    results.fits.push_back(fitted(event.at("fit"), "fit"));
+  FitResults results{event.at("status").get<std::string>(), {}};
+  if (const std::string reason = event.value("reason", ""); !reason.empty()) results.status += ": " + reason;
   if (event.contains("fits")) {
-    const char* const labels[] = {"fit A", "fit B"};
-    for (std::size_t i = 0; i < 2; ++i)
-      if (event.at("fits").at(i).is_object())
-        results.fits.push_back(fitted(event.at("fits").at(i), labels[i]));
+    add_fit(event.at("fits").at(0), "fit A", results);
+    add_fit(event.at("fits").at(1), "fit B", results);
+  } else {
+    add_fit(event.at("fit"), "fit", results);
   }
   return results;
 }

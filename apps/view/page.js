@@ -554,24 +554,41 @@
     element("curve-caption").textContent = `Light in time, as stored in bins of ${binWidth} ns.`;
   }
 
+  // Where the first trace begins, to where the last one is within 2% of its quiet again.
+  function spanOf(waves, most) {
+    const low = Math.min(...waves.map((w) => w.time));
+    let high = low + 400;
+    for (const w of waves)
+      w.millivolts.forEach((v, i) => {
+        if (Math.abs(v) > 0.02 * most) high = Math.max(high, w.time + (i + 3) * w.sample);
+      });
+    return [low, high];
+  }
+
+  const digitiserColours = {atwd0: "--accent", atwd1: "--second", atwd2: "--light", fadc: "--fit"};
   function drawWaves(waves) {
     const {pen, width, height} = penOf(element("waveform"));
-    const low = Math.min(...waves.map((w) => w.time)),
-          high = Math.max(...waves.map((w) => w.time + w.sample * w.millivolts.length));
     const all = waves.flatMap((w) => w.millivolts), floor = Math.min(0, ...all), most = Math.max(1, ...all);
-    const {x, y} = axes(
-        pen, {left: 52, right: width - 10, top: 8, bottom: height - 36}, [low, high],
-        [floor, floor + 1.08 * (most - floor)], "time [ns]", "voltage [mV]");
-    const colours = {fadc: "--fit", atwd0: "--accent", atwd1: "--second", atwd2: "--light"};
+    const frame = {left: 52, right: width - 10, top: 8, bottom: height - 36}, span = spanOf(waves, most);
+    const {x, y} =
+        axes(pen, frame, span, [floor, floor + 1.08 * (most - floor)], "time [ns]", "voltage [mV]");
     for (const wave of waves) {
-      pen.strokeStyle = css(colours[wave.digitiser] || "--ink");
+      pen.strokeStyle = css(digitiserColours[wave.digitiser] || "--ink");
       pen.lineWidth = 1.4;
       pen.beginPath();
-      wave.millivolts.forEach((v, i) => pen.lineTo(x(wave.time + i * wave.sample), y(v)));
+      wave.millivolts.forEach((v, i) => {
+        const t = wave.time + i * wave.sample;
+        if (t <= span[1]) pen.lineTo(x(t), y(v));
+      });
       pen.stroke();
     }
-    element("waveform-caption").textContent =
-        `Digitised: ${[...new Set(waves.map((w) => w.digitiser))].join(", ")}.`;
+    const names = [...new Set(waves.map((w) => w.digitiser))];
+    element("waveform-caption")
+        .replaceChildren("Digitised, first repetition: ", ...names.flatMap((name, i) => {
+          const word = Object.assign(document.createElement("b"), {textContent: name});
+          word.style.color = `var(${digitiserColours[name] || "--ink"})`;
+          return i ? [", ", word] : [word];
+        }));
   }
 
   const nameOf = (i) => `${detector.string[i]},${detector.dom[i]}`;

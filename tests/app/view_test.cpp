@@ -105,6 +105,23 @@ TEST_F(View, ShowsTheEventThatIsNamedAndWhereItsLightCameFrom) {
   EXPECT_EQ(data_of(page("point.html"))["light"][0]["y"], 2);
 }
 
+TEST_F(View, SaysWhyThereIsNoFitAndShowsTwo) {
+  simulate_cascade();
+  write_bytes(folder_.path() / "none.json",
+              R"({"events": [{"event": "cascade", "status": "not_enough_light", "reason": "3 modules", "fit":
+              {"x": null, "y": null, "z": null, "covariance": null}}]})");
+  const Outcome outcome = floe_well("view event.h5 --fit none.json --quiet");
+  EXPECT_NE(outcome.err.find("no fit to show: not_enough_light: 3 modules"), std::string::npos)
+      << outcome.err;
+  EXPECT_TRUE(data_of(page("event.html"))["fits"].empty());
+
+  const Json fit = Json::parse(fitted)["events"][0]["fit"];
+  const Json two = {{"events", {{{"event", "cascade"}, {"status", "ok"}, {"fits", {fit, fit}}}}}};
+  write_bytes(folder_.path() / "two.json", two.dump());
+  floe_well("view event.h5 --fit two.json");
+  EXPECT_EQ(data_of(page("event.html"))["fits"][1]["name"], "fit B");
+}
+
 TEST_F(View, IsNotFooledByNamesInTheData) {
   // A name that would end the data's element, or the page, if it stood there as it is.
   write_bytes(folder_.path() / "a<script>{{data}}.hits", "HIT 20 30 100.0 400.0 1.5 0.5 1.5 0.5\n");
@@ -205,7 +222,7 @@ TEST_F(View, WorksInABrowserWithoutANetwork) {
   EXPECT_NE(dom.find("data-theme=\"dark\""), std::string::npos);
   EXPECT_NE(dom.find("data-lit-modules=\"" + std::to_string(data["curves"].size()) + "\""),
             std::string::npos);
-  EXPECT_NE(dom.find("Digitised: atwd0."), std::string::npos);
+  EXPECT_NE(dom.find(">atwd0</b>"), std::string::npos);
   EXPECT_NE(dom.find("fit: vertex 1.0 m and direction 2.0 deg from the truth, energy 5.0% off."),
             std::string::npos);
   EXPECT_NE(dom.find("Ice: south-pole"), std::string::npos);
@@ -286,6 +303,7 @@ const WrongCase cases[] = {
     {"FitThatIsNoJson", "view event.hits --fit event.hits", 3, "what is not JSON"},
     {"FitOfAnotherKind", "view event.hits --fit other.json", 3, "other JSON"},
     {"FitOfAnotherEvent", "view event.hits --fit fit.json", 3, "no event 'event', but cascade"},
+    {"FitWithoutStatus", "view event.hits --fit half.json", 3, "other JSON"},
     {"FolderMissing", "view event.hits -o no/such/page.html", 5, "no/such"},
     {"UnknownIce", "view event.hits --ice nowhere", 3, "nowhere"},
 };
@@ -296,6 +314,7 @@ TEST_P(WrongView, IsSaidAndLeavesNothing) {
   write_readable_event(folder.path() / "event.hits");
   write_bytes(folder.path() / "fit.json", fitted);
   write_bytes(folder.path() / "other.json", "{\"results\": 3}");
+  write_bytes(folder.path() / "half.json", "{\"events\": [{\"event\": \"event\"}]}");
   expect_said_and_nothing_left(folder.path(), GetParam());
 }
 INSTANTIATE_TEST_SUITE_P(Uses, WrongView, ::testing::ValuesIn(cases), name_of_case);
