@@ -96,8 +96,8 @@
     const margin = 0.04 * Math.max(late - early, 50);
     span.low = Math.max(span.low, Math.floor(early - margin));
     span.high = Math.min(span.high, Math.ceil(late + margin));
-    if (span.high <= span.low) span.high = span.low + 1;
   }
+  if (!(span.high > span.low)) span.high = span.low + 1;
   const firsts = data.curves.map((curve) => curve.first), ones = firsts.map(() => 1);
   const colourSpan = {low: quantile(firsts, ones, 0.02), high: quantile(firsts, ones, 0.9)};
   if (!(colourSpan.high > colourSpan.low)) colourSpan.high = colourSpan.low + 1;
@@ -471,7 +471,7 @@
     if (data.truth.length)
       items.push(symbol("--true", data.truth.length > 1 ? `truth: ${data.truth.length} particles` : "truth"));
     data.fits.forEach((fit, i) => items.push(symbol(i ? "--second" : "--fit", fit.name, "dashed")));
-    for (const light of data.light) items.push(symbol("--light", `light source: ${light.label}`));
+    for (const light of data.light) items.push(symbol("--light", `light of ${light.label}`));
     if (data.ice) items.push(symbol("--flow", "flow of the ice"), symbol("--dust", "dust: absorption"));
     element("symbols").replaceChildren(...items);
   }
