@@ -24,5 +24,6 @@ void add_import(CLI::App& floe, const std::string& command_line);
 void add_export(CLI::App& floe);
 void add_merge(CLI::App& floe, const std::string& command_line);
 void add_validate(CLI::App& floe);
+void add_view(CLI::App& floe);
 
 }  // namespace floe

@@ -78,6 +78,32 @@ void read_wavelength(const Entry& entry, RunToSimulate& run) {
   run.whole_line = true;
 }
 
+// The file that an entry names; relative names start at the folder of the TOML file.
+std::filesystem::path file_of(const Entry& entry) {
+  if (!entry.value->is_string()) entry.refuse("the name of a file");
+  return std::filesystem::path(entry.file).parent_path() / entry.value->as_string().str;
+}
+
+void read_beam(const Entry& entry, RunToSimulate& run) {
+  run.beam = read_beam_profile(file_of(entry));
+  run.run.beam_width = equivalent_beam_width(*run.beam);
+}
+
+void read_pulse(const Entry& entry, RunToSimulate& run) {
+  run.pulse = read_pulse_shape(file_of(entry));
+  run.run.pulse_width = equivalent_pulse_width(*run.pulse);
+}
+
+void read_beam_width(const Entry& entry, RunToSimulate& run) {
+  run.run.beam_width = entry.number() * degree;
+  run.beam.reset();  // that of the defaults
+}
+
+void read_pulse_width(const Entry& entry, RunToSimulate& run) {
+  run.run.pulse_width = entry.number();
+  run.pulse.reset();
+}
+
 struct Key {
   const char* name;
   void (*read)(const Entry& entry, RunToSimulate& run);
@@ -91,8 +117,10 @@ constexpr Key light_keys[] = {
     {"leds", read_leds},
     {"orientation_deg", [](const Entry& e, RunToSimulate& r) { r.run.orientation = e.number() * degree; }},
     {"wavelength_nm", read_wavelength},
-    {"width_deg", [](const Entry& e, RunToSimulate& r) { r.run.beam_width = e.number() * degree; }},
-    {"pulse_width_ns", [](const Entry& e, RunToSimulate& r) { r.run.pulse_width = e.number(); }},
+    {"width_deg", read_beam_width},
+    {"pulse_width_ns", read_pulse_width},
+    {"beam", read_beam},
+    {"pulse", read_pulse},
     {"photons", [](const Entry& e, RunToSimulate& r) { r.run.photons = e.number(); }},
     {"repeats", [](const Entry& e, RunToSimulate& r) { r.repeats = e.whole(1, 1'000'000); }},
 };
@@ -106,9 +134,24 @@ using Keys = std::vector<Key>;
                    meant.empty() ? "" : fmt::format("Did you mean {}?", meant));
 }
 
+// A beam and a pulse are said once in a table: as a width, or as what was measured.
+void expect_said_once(const std::vector<Entry>& entries) {
+  for (const auto& [width, measured] :
+       {std::pair("width_deg", "beam"), std::pair("pulse_width_ns", "pulse")}) {
+    const auto has = [&](const char* key) {
+      return std::any_of(entries.begin(), entries.end(), [&](const Entry& e) { return e.key == key; });
+    };
+    for (const Entry& entry : entries)
+      if (entry.key == measured && has(width))
+        throw InputError(entry.where(), fmt::format("{} beside {}", measured, width), "one of the two");
+  }
+}
+
 // Reads a table into the run; each value is checked where it stands.
 void read_table(const std::string& file, const toml::value& table, const Keys& keys, RunToSimulate& run) {
-  for (const Entry& entry : entries_of(file, table)) {
+  const std::vector<Entry> entries = entries_of(file, table);
+  expect_said_once(entries);
+  for (const Entry& entry : entries) {
     const auto key =
         std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.name == entry.key; });
     if (key == keys.end()) {

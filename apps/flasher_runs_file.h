@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "data/flasher_run.h"
+#include "propagation/sources/measured_curve.h"
 
 namespace floe {
 
@@ -14,6 +16,8 @@ struct RunToSimulate {
   // Whether the LED's line is simulated whole, because its wavelength was named. Otherwise the middle of the
   // line at 405 nm is (reference_led_line).
   bool whole_line = false;
+  // Measured, in place of the widths of `run`, which are then equivalents.
+  std::optional<MeasuredCurve> beam = {}, pulse = {};
 };
 
 // The runs of a file's [[run]] tables, in order; what its table [defaults] names holds for every run that

@@ -48,6 +48,7 @@ void add_commands(CLI::App& app, const std::string& command_line) {
   floe::add_export(app);
   floe::add_merge(app, command_line);
   floe::add_validate(app);
+  floe::add_view(app);
 }
 
 int run(const std::string& command_line, int argc, char** argv) {

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <limits>
-#include <map>
 
 #include "data/base/error.h"
 #include "data/event_files.h"
 #include "propagation/sources/flasher.h"
+#include "propagation/sources/muon.h"
 
 namespace floe {
 
@@ -26,6 +26,16 @@ const char* f2k_name(CascadeKind kind) {
       return "gamma";
     case CascadeKind::hadron:
       return "hadr";
+    case CascadeKind::pi_minus:
+      return "pi-";
+    case CascadeKind::kaon:
+      return "K0L";
+    case CascadeKind::proton:
+      return "p";
+    case CascadeKind::neutron:
+      return "n";
+    case CascadeKind::antiproton:
+      return "pbar";
   }
   return "";
 }
@@ -41,23 +51,16 @@ Particle particle_of(const Cascade& cascade) {
   return particle;
 }
 
-CascadeKind kind_of_f2k(const Particle& particle, const std::string& file) {
-  static const std::map<std::string, CascadeKind> kinds{
-      {"e", CascadeKind::electron},     {"e-", CascadeKind::electron},    {"e+", CascadeKind::positron},
-      {"gamma", CascadeKind::gamma},    {"delta", CascadeKind::electron}, {"brems", CascadeKind::electron},
-      {"epair", CascadeKind::electron}, {"hadr", CascadeKind::hadron},    {"munu", CascadeKind::hadron}};
-  const auto found = kinds.find(particle.name);
-  if (found == kinds.end())
-    throw InputError(
-        {file}, fmt::format("a particle \"{}\"", particle.name),
-        "e, e-, e+, gamma, delta, brems, epair, hadr, munu or ph",
-        "Muon segments (amu, amu+, amu-) are not simulated: remove them, or keep only the losses");
-  return found->second;
+// Of the particles that f2k names, those that are neither muons nor photons.
+CascadeKind kind_of_f2k(const std::string& name) {
+  if (name == "e" || name == "delta" || name == "brems" || name == "epair") return CascadeKind::electron;
+  if (name == "hadr" || name == "munu") return CascadeKind::hadron;
+  return cascade_kind_of(name);
 }
 
-Cascade cascade_of(const Particle& particle, const std::string& file) {
+Cascade cascade_of(const Particle& particle) {
   return {particle.position, particle.time,   particle.zenith,
-          particle.azimuth,  particle.energy, kind_of_f2k(particle, file)};
+          particle.azimuth,  particle.energy, kind_of_f2k(particle.name)};
 }
 
 PlannedSource cascade_source(const Cascade& cascade, const Model& model, std::uint64_t seed,
@@ -74,6 +77,28 @@ PlannedSource photon_source(const Particle& particle, const Model& model) {
           true};
 }
 
+PlannedSource muon_source(const Particle& particle, const Model& model) {
+  const MuonSegment muon{particle.position, particle.time,   particle.zenith,
+                         particle.azimuth,  particle.length, particle.energy};
+  return {std::make_unique<MuonSource>(muon, model.acceptance.spectrum), false};
+}
+
+PlannedSource source_of(const Particle& particle, const Model& model, std::uint64_t seed,
+                        std::uint64_t stream) {
+  if (particle.name == "ph") return photon_source(particle, model);
+  if (particle.name.starts_with("amu")) return muon_source(particle, model);
+  return cascade_source(cascade_of(particle), model, seed, stream);
+}
+
+PlannedEvent plan_point(const PointRequest& request, const Model& model) {
+  LaserSettings light = request.light;
+  if (request.emitted)
+    light.photons = *request.emitted * accepted_share(light.wavelength, model.acceptance.spectrum);
+  PlannedEvent event{request.id, {}, {}};
+  event.sources.push_back({std::make_unique<LaserSource>(light), false});
+  return event;
+}
+
 PlannedEvent plan_flasher(const FlasherRequest& request, const Model& model) {
   FlasherSettings settings;
   // N counts a whole line of light; without a wavelength only its middle is simulated.
@@ -82,6 +107,8 @@ PlannedEvent plan_flasher(const FlasherRequest& request, const Model& model) {
   settings.elevation = request.elevation_deg * degree;
   if (request.azimuth_deg) settings.azimuth = *request.azimuth_deg * degree;
   settings.isotropic = request.isotropic;
+  settings.beam = request.beam;
+  settings.pulse = request.pulse;
   PlannedEvent event{fmt::format("flasher-{}-{}", request.module.string, request.module.dom), {}, {}};
   event.sources.push_back({std::make_unique<FlasherSource>(
                                *model.detector, request.module, adjusted(settings, model.sources),
@@ -93,6 +120,8 @@ PlannedEvent plan_flasher(const FlasherRequest& request, const Model& model) {
 PlannedEvent plan_run(const RunToSimulate& planned, const std::string& id, const Model& model) {
   FlasherSettings settings = flasher_settings(planned.run);
   settings.photons *= planned.repeats * (planned.whole_line ? 1 : reference_led_share);
+  settings.beam = planned.beam;
+  settings.pulse = planned.pulse;
   PlannedEvent event{id, {}, {}, static_cast<double>(planned.repeats), planned.run};
   event.sources.push_back({std::make_unique<FlasherSource>(
                                *model.detector, planned.run.module, adjusted(settings, model.sources),
@@ -120,9 +149,7 @@ std::vector<PlannedEvent> plan_f2k(const std::string& file, const Model& model, 
   for (Event& event : read_f2k(file)) {
     planned.push_back({event.id, std::move(event.truth), {}});
     for (const Particle& particle : planned.back().truth) {
-      planned.back().sources.push_back(particle.name == "ph"
-                                           ? photon_source(particle, model)
-                                           : cascade_source(cascade_of(particle, file), model, seed, stream));
+      planned.back().sources.push_back(source_of(particle, model, seed, stream));
       ++stream;
     }
   }
@@ -133,8 +160,12 @@ Json flasher_json(const FlasherRequest& request) {
   Json json = {{"string", request.module.string}, {"dom", request.module.dom}, {"photons", request.photons}};
   json["wavelength_nm"] = request.wavelength ? Json(*request.wavelength) : Json();
   json["isotropic"] = request.isotropic;
+  if (request.pulse) json["pulse"] = to_json(*request.pulse);
   if (request.isotropic) return json;
-  json["width_deg"] = request.width_deg;
+  if (request.beam)
+    json["beam"] = to_json(*request.beam, degree);
+  else
+    json["width_deg"] = request.width_deg;
   json["elevation_deg"] = request.elevation_deg;
   json["azimuth_deg"] = request.azimuth_deg ? Json(*request.azimuth_deg) : Json();
   return json;
@@ -142,14 +173,17 @@ Json flasher_json(const FlasherRequest& request) {
 
 Json run_json(const RunToSimulate& planned) {
   const FlasherRun& run = planned.run;
-  return {{"module", {run.module.string, run.module.dom}},
-          {"leds", name_of(run.leds)},
-          {"orientation_deg", run.orientation / degree},
-          {"wavelength_nm", planned.whole_line ? Json(run.wavelength) : Json()},
-          {"width_deg", run.beam_width / degree},
-          {"pulse_width_ns", run.pulse_width},
-          {"photons", run.photons},
-          {"repeats", planned.repeats}};
+  Json json = {{"module", {run.module.string, run.module.dom}},
+               {"leds", name_of(run.leds)},
+               {"orientation_deg", run.orientation / degree},
+               {"wavelength_nm", planned.whole_line ? Json(run.wavelength) : Json()},
+               {"width_deg", run.beam_width / degree},
+               {"pulse_width_ns", run.pulse_width},
+               {"photons", run.photons},
+               {"repeats", planned.repeats}};
+  if (planned.beam) json["beam"] = to_json(*planned.beam, degree);
+  if (planned.pulse) json["pulse"] = to_json(*planned.pulse);
+  return json;
 }
 
 Json runs_json(const std::vector<RunToSimulate>& runs) {
@@ -175,6 +209,7 @@ Json to_json(const SourceRequest& request) {
   if (request.flasher) return {{"flasher", flasher_json(*request.flasher)}};
   if (request.flashers) return {{"flashers", runs_json(*request.flashers)}};
   if (request.cascade) return {{"cascade", cascade_json(*request.cascade)}};
+  if (request.point) return {{request.point->id, to_json(*request.point)}};
   return {{"f2k", request.f2k.value()}};
 }
 
@@ -183,6 +218,7 @@ std::vector<PlannedEvent> plan_light(const SourceRequest& request, const Model& 
   if (request.flashers) return plan_runs(*request.flashers, model);
   std::vector<PlannedEvent> planned;
   planned.push_back(request.flasher ? plan_flasher(*request.flasher, model)
+                    : request.point ? plan_point(*request.point, model)
                                     : plan_cascade(request.cascade.value(), model, seed));
   return planned;
 }

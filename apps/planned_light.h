@@ -8,6 +8,7 @@
 
 #include "apps/flasher_runs_file.h"
 #include "apps/planned_output.h"
+#include "apps/point_options.h"
 #include "data/event.h"
 #include "propagation/model.h"
 #include "propagation/sources/cascade.h"
@@ -23,6 +24,7 @@ struct FlasherRequest {
   double elevation_deg = -0.2;
   std::optional<double> azimuth_deg;
   bool isotropic = false;
+  std::optional<MeasuredCurve> beam = {}, pulse = {};  // in place of width_deg, and of a flash at once
 };
 
 // Exactly one of these is set.
@@ -31,6 +33,7 @@ struct SourceRequest {
   std::optional<std::vector<RunToSimulate>> flashers;
   std::optional<Cascade> cascade;
   std::optional<std::string> f2k;  // a file
+  std::optional<PointRequest> point;
 };
 Json to_json(const SourceRequest& request);
 
@@ -45,6 +48,7 @@ struct PlannedEvent {
   // The sources hold the light of all repetitions; the event is an average over them.
   double repeats = 1;
   std::optional<FlasherRun> flasher = {};
+  double share = 1;  // of the sources' light that is simulated; `repeats` knows of it
 };
 
 // The events of the request, in order. `seed` draws how bright hadronic cascades are. Throws InputError:

@@ -1,10 +1,13 @@
 // floe simulate: light of flashers, a cascade or an f2k file, through the ice, to hits in a file.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <set>
 
+#include "apps/brightness_limit.h"
 #include "apps/commands.h"
 #include "apps/common_options.h"
 #include "apps/event_arguments.h"
@@ -31,7 +34,10 @@ struct SimulateOptions {
   Shard shard;
   double stretch = 1;  // of absorption; above 1: hits carry weights
 
+  double most_photons = most_photons_by_default;
+
   FlasherRequest flasher;
+  PointOptions point;
   Cascade cascade;
   std::string f2k, flashers;  // files
   std::string flasher_text, cascade_text, particle = "e-";
@@ -42,6 +48,8 @@ struct EventResult {
   std::string id;
   SimulationSummary summary;
   std::set<std::uint32_t> modules;  // that were hit
+  double share;                     // of its photons that was simulated
+  double repeats;
 };
 
 std::vector<double> parse_numbers(const std::string& option, const std::string& text, std::size_t count,
@@ -95,8 +103,10 @@ double parse_stretch(const std::string& text) {
 
 SourceRequest light_request(const SimulateOptions& options) {
   const int given = !options.flasher_text.empty() + !options.flashers.empty() +
-                    !options.cascade_text.empty() + !options.f2k.empty();
-  if (given != 1) throw UsageError("give exactly one of --flasher, --flashers, --cascade and --f2k");
+                    !options.cascade_text.empty() + !options.f2k.empty() + options.point.given();
+  if (given != 1)
+    throw UsageError(
+        "give exactly one of --flasher, --flashers, --cascade, --f2k, --point and --standard-candle");
   SourceRequest light;
   if (!options.f2k.empty()) light.f2k = options.f2k;
   if (!options.flashers.empty()) {
@@ -108,7 +118,10 @@ SourceRequest light_request(const SimulateOptions& options) {
     if (options.flasher.photons == 0) throw UsageError("--flasher needs --photons N, e.g. --photons 2e9");
     light.flasher = options.flasher;
     light.flasher->module = parse_module("--flasher", options.flasher_text);
+    light.flasher->beam = options.point.beam;
+    light.flasher->pulse = options.point.pulse;
   }
+  if (options.point.given()) light.point = point_request(options.point);
   return light;
 }
 
@@ -119,6 +132,7 @@ Provenance provenance_of(const SimulateOptions& options, const SourceRequest& li
                         {"source", to_json(light)},
                         {"seed", options.settings.seed},
                         {"oversize", options.settings.oversize}};
+  configuration["most_photons"] = options.most_photons;
   if (options.stretch > 1) configuration["weighted"] = options.stretch;
   if (options.shard.count > 1) configuration["shard"] = {options.shard.index, options.shard.count};
   Provenance provenance;
@@ -139,7 +153,7 @@ double photons_to_propagate(const Simulator& simulator, const std::vector<Planne
   double photons = 0;
   for (const PlannedEvent& event : events)
     for (const PlannedSource& planned : event.sources)
-      photons += simulator.photons_to_propagate(*planned.source);
+      photons += event.share * simulator.photons_to_propagate(*planned.source);
   return photons;
 }
 
@@ -160,10 +174,11 @@ class Run {
     const double all = photons_to_propagate(simulator_, events);
     std::vector<EventResult> results;
     for (const PlannedEvent& event : events) {
-      EventResult result{event.id, {}, {}};
+      EventResult result{event.id, {}, {}, event.share, event.repeats};
       writer_.begin_event(event.id, event.truth, event.repeats, event.flasher);
       for (const PlannedSource& planned : event.sources) {
-        const double share = all > 0 ? simulator_.photons_to_propagate(*planned.source) / all : 0;
+        const double photons = event.share * simulator_.photons_to_propagate(*planned.source);
+        const double share = all > 0 ? photons / all : 0;
         run_source(planned, event, share, result);
         done_ += share;
       }
@@ -183,6 +198,7 @@ class Run {
     options.shard = options_.shard;
     options.absorption_stretch = options_.stretch;
     options.fixed_number = planned.fixed_number;
+    options.scale = event.share;
     const auto sink = [&](std::span<const SimulatedHit> hits) { write(hits, event, result); };
     Progress progress;
     if (progress_)
@@ -202,7 +218,8 @@ class Run {
       const double start = std::ranges::min(event.truth, {}, &Particle::time).time;
       window.from += start, window.to += start;
     }
-    const auto emitter = event.sources.front().source->emitting_module();
+    std::optional<std::size_t> emitter;
+    if (!event.sources.empty()) emitter = event.sources.front().source->emitting_module();
     const auto hits = noise_hits(simulator_.model(), window, emitter, options_.settings.seed, stream_);
     write(hits, event, result);
     result.summary.hits += hits.size();
@@ -262,7 +279,9 @@ Json results_json(const std::vector<EventResult>& results, const SimulateOptions
     events.push_back({{"event", result.id},
                       {"photons_propagated", result.summary.propagated},
                       {"hits", result.summary.hits},
-                      {"modules_hit", result.modules.size()}});
+                      {"modules_hit", result.modules.size()},
+                      {"share_simulated", result.share},
+                      {"repeats", result.repeats}});
     put_weights(result.summary.weights, events.back());
   }
   return json;
@@ -296,9 +315,10 @@ void run_simulate(const SimulateOptions& options, const std::string& command_lin
   const std::string file = require_event_file_name(options.file);
   PlannedOutput json(options.output.json);
   const Model model = load_model(options.model);
-  const auto events = plan_light(light, model, options.settings.seed);
+  auto events = plan_light(light, model, options.settings.seed);
   const std::vector<std::string> warnings = warn_of_model(model, options.settings.oversize);
   const Simulator simulator(model, options.settings.oversize);
+  limit_brightness(simulator, options.most_photons, events);
 
   EventFileWriter writer(file, provenance_of(options, light, model, command_line));
   std::vector<EventResult> results;
@@ -324,36 +344,55 @@ void add_source_options(CLI::App& app, SimulateOptions& options) {
   app.add_option("--f2k", options.f2k, "All particles of an f2k text file, an event per EM line")
       ->type_name("FILE");
 
-  app.add_option("--particle", options.particle, "Of the cascade: e-, e+, gamma or hadron")
+  app.add_option("--particle", options.particle,
+                 "Of the cascade: e-, e+, gamma or hadron; or the hadron's kind: pi+, pi-, K0L, p, n, pbar")
       ->type_name("NAME")
       ->capture_default_str()
       ->needs(cascade);
-  add_number(app, "--time", "NS", {-1e9, 1e9}, "Of the cascade's vertex", options.cascade.time)
-      ->needs(cascade);
-
   FlasherRequest& light = options.flasher;
-  add_number(app, "--photons", "N", positive, "Of the flasher, counted as a nominal module would accept them",
-             [&light](double n) { light.photons = n; })
-      ->needs(flasher);
+  PointOptions& point = options.point;
+  add_number(app, "--time", "NS", {-1e9, 1e9}, "Of the cascade's vertex, of the point or candle",
+             [&options, &point](double time) { point.time = options.cascade.time = time; })
+      ->default_str("0");
+  add_number(app, "--photons", "N", positive,
+             "Of the flasher, point or candle, counted as a nominal module would accept them",
+             [&light, &point](double n) { point.photons = light.photons = n; });
   add_number(app, "--wavelength", "NM", {300, 600},
              "Of the flasher's line, simulated whole; default: the middle of the line at 405 nm, with 0.68 "
-             "of its light",
-             [&light](double nm) { light.wavelength = nm; })
-      ->needs(flasher);
+             "of its light. Of the point (default: 405) or candle (337), a sharp line",
+             [&light, &point](double nm) { point.wavelength = light.wavelength = nm; });
   auto* isotropic =
       app.add_flag("--isotropic", light.isotropic, "The flasher shines into all directions alike")
           ->needs(flasher);
   add_number(app, "--width", "DEG", {0, 90}, "Of the flasher's beam (sigma)", light.width_deg)
       ->needs(flasher)
       ->excludes(isotropic);
-  add_number(app, "--elevation", "DEG", {-90, 90}, "Of the flasher's beam above the horizontal",
-             light.elevation_deg)
-      ->needs(flasher)
+  add_number(app, "--elevation", "DEG", {-90, 90},
+             "Above the horizontal, of the flasher's beam (default: -0.2) or the cone's axis (90)",
+             [&light, &point](double angle) { point.elevation_deg = light.elevation_deg = angle; })
       ->excludes(isotropic);
-  add_number(app, "--azimuth", "DEG", {-360, 360}, "Of the flasher's beam; default: into all azimuths alike",
-             [&light](double azimuth) { light.azimuth_deg = azimuth; })
-      ->needs(flasher)
+  add_number(app, "--azimuth", "DEG", {-360, 360},
+             "Of the flasher's beam, by default into all azimuths alike, or of the cone's axis",
+             [&light, &point](double azimuth) { point.azimuth_deg = light.azimuth_deg = azimuth; })
       ->excludes(isotropic);
+  add_point_options(app, options.point);
+  app.get_option("--beam")->excludes(isotropic)->excludes(app.get_option("--width"));
+}
+
+// Options that several sources have mean nothing without one of them.
+void expect_owners(const CLI::App& app) {
+  const std::vector<std::string> points{"--point", "--standard-candle"},
+      lights{"--flasher", "--point", "--standard-candle"}, timed{"--cascade", "--point", "--standard-candle"},
+      flasher{"--flasher"};
+  const std::vector<std::pair<const char*, const std::vector<std::string>*>> owners{
+      {"--time", &timed},       {"--photons", &lights}, {"--wavelength", &lights},
+      {"--elevation", &lights}, {"--azimuth", &lights}, {"--pulse", &lights},
+      {"--beam", &flasher},     {"--emitted", &points}, {"--opening", &points}};
+  for (const auto& [option, sources] : owners) {
+    const auto typed = [&](const std::string& source) { return app.count(source) > 0; };
+    if (app.count(option) > 0 && std::none_of(sources->begin(), sources->end(), typed))
+      throw UsageError(fmt::format("{} requires {}", option, fmt::join(*sources, ", or ")));
+  }
 }
 
 }  // namespace
@@ -375,6 +414,11 @@ void add_simulate(CLI::App& floe, const std::string& command_line) {
          "noise far from the source")
       ->type_name("[=K]")
       ->expected(0, 1);
+  add_number(app, "--most-photons", "N", {1, 1e18},
+             "Photons to propagate for an event at most; of brighter ones a share is simulated, and its hits "
+             "count for the rest",
+             options->most_photons)
+      ->default_str("1e9");
   add_output_options(app, options->output);
   app.footer(
       "Examples:\n"
@@ -385,8 +429,13 @@ void add_simulate(CLI::App& floe, const std::string& command_line) {
       "hadron.h5\n"
       "  floe simulate --flasher 63,20 --photons 1e6 --with birefringence.strength=0.5 -o half.h5\n"
       "  floe simulate --flasher 63,20 --photons 1e6 --weighted=6 -o far.h5\n"
+      "  floe simulate --point 20,-40,-300 --photons 1e6 -o point.h5\n"
+      "  floe simulate --standard-candle 20,-40,-300 --emitted 1e9 -o candle.h5\n"
       "  floe simulate --f2k events.f2k --seed 2 --json summary.json -o events.h5");
-  app.callback([options, command_line] { run_simulate(*options, command_line); });
+  app.callback([options, command_line, &app] {
+    expect_owners(app);
+    run_simulate(*options, command_line);
+  });
 }
 
 }  // namespace floe

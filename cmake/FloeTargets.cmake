@@ -27,6 +27,22 @@ function(floe_room name)
   target_link_libraries(floe_${name} PUBLIC ${ARG_DEPENDS} PRIVATE floe_options)
 endfunction()
 
+# floe_embed(TARGET FILE...): text files that become constants of the program, named after the file: page.js is
+# floe::page_js, a std::string_view to be declared where it is used.
+function(floe_embed target)
+  foreach(file ${ARGN})
+    get_filename_component(base "${file}" NAME)
+    string(MAKE_C_IDENTIFIER "${base}" name)
+    set(source "${CMAKE_CURRENT_SOURCE_DIR}/${file}")
+    set(made "${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp")
+    add_custom_command(OUTPUT "${made}"
+      COMMAND ${CMAKE_COMMAND} "-DSOURCE=${source}" "-DTARGET=${made}" "-DNAME=${name}"
+              -P "${PROJECT_SOURCE_DIR}/cmake/EmbedText.cmake"
+      DEPENDS "${source}" "${PROJECT_SOURCE_DIR}/cmake/EmbedText.cmake" VERBATIM)
+    target_sources(${target} PRIVATE "${made}")
+  endforeach()
+endfunction()
+
 # floe_test(NAME LABEL unit|physics|regression|app SOURCES ... DEPENDS ...): one GoogleTest
 # program, registered as one CTest test with the label and a time limit.
 function(floe_test name)

@@ -30,7 +30,8 @@ Angles angles_of(const Vec3f& direction) {
 // What the charge of a photon is in the event. Of a flasher run, whose FLASHER line says how many flashes
 // there were, the text holds the photons of all of them.
 float photon_charge(const Event& event) {
-  return event.flasher ? static_cast<float>(1 / event.repeats) : 1;
+  const bool flashes = event.flasher && event.repeats >= 1;  // a share of one flash is no number of flashes
+  return flashes ? static_cast<float>(1 / event.repeats) : 1;
 }
 
 void append_hit(fmt::memory_buffer& text, const Event& event, const Hit& hit) {

@@ -12,8 +12,9 @@ namespace floe {
 
 namespace {
 
-constexpr std::array<std::string_view, 13> particle_names = {
-    "e", "e-", "e+", "gamma", "delta", "brems", "epair", "hadr", "munu", "amu", "amu+", "amu-", "ph"};
+constexpr std::array<std::string_view, 19> particle_names = {
+    "e",   "e-",  "e+", "gamma", "delta", "brems", "epair", "hadr", "munu", "pi+",
+    "pi-", "K0L", "p",  "n",     "pbar",  "amu",   "amu+",  "amu-", "ph"};
 
 Problem number_problem(std::string_view what, double value, std::string_view expected) {
   return {fmt::format("{} {}{}", what, value, std::isfinite(value) ? "" : " (not finite)"),

@@ -9,8 +9,20 @@
 
 namespace floe {
 
-enum class CascadeKind { electron, positron, gamma, hadron };
-CascadeKind cascade_kind_of(const std::string& name);  // "e-", "e+", "gamma", "hadron"; throws UsageError
+// `hadron` is the cascade of a pi+, the usual stand-in for any hadronic one.
+enum class CascadeKind {
+  electron,
+  positron,
+  gamma,
+  hadron,
+  pi_minus,
+  kaon,  // neutral, long-lived
+  proton,
+  neutron,
+  antiproton
+};
+// "e-", "e+", "gamma", "hadron" or "pi+", "pi-", "K0L", "p", "n", "pbar"; throws UsageError
+CascadeKind cascade_kind_of(const std::string& name);
 
 struct Cascade {
   Vec3 position = Vec3::Zero();    // the vertex [m]

@@ -59,6 +59,9 @@ FlasherSettings flasher_settings(const FlasherRun& run) {
 FlasherSettings adjusted(FlasherSettings nominal, const SourceSettings& sources) {
   nominal.photons *= sources.brightness_factor;
   nominal.beam_width *= sources.width_factor;
+  // Factors of 0 make pencils, which no curve can be: that beam is as narrow as makes no difference.
+  if (nominal.beam && sources.width_factor != 1)
+    nominal.beam = nominal.beam->stretched(std::max(sources.width_factor, 1e-6));
   nominal.time += sources.time_offset;
   return nominal;
 }
@@ -77,6 +80,8 @@ FlasherSource::FlasherSource(const Detector& detector, ModuleId module, const Fl
   if (settings.leds < 1) throw UsageError("a flasher's number of LEDs must be at least 1");
   if (!(settings.pulse_width >= 0) || !std::isfinite(settings.pulse_width))
     throw UsageError("a flasher's pulse width must be finite and not negative");
+  if (settings.beam) beam_angles_ = beam_angles(*settings.beam);
+  if (settings.pulse) pulse_times_ = pulse_times(*settings.pulse);
 }
 
 PointSource::PointSource(const Vec3& position, double time, double photons,

@@ -6,6 +6,7 @@
 #include "data/flasher_run.h"
 #include "geometry/acceptance.h"
 #include "geometry/detector.h"
+#include "propagation/sources/measured_curve.h"
 #include "propagation/sources/quantile_table.h"
 #include "propagation/sources/source.h"
 #include "propagation/sources/source_settings.h"
@@ -30,6 +31,9 @@ struct FlasherSettings {
   bool isotropic = false;            // emits into all directions alike
   double time = 0;                   // [ns]
   double pulse_width = 0;            // photons leave evenly from `time` on for so long [ns]
+  // Measured: each LED's beam, in place of the Gaussian of `beam_width`; the pulse, in place of the even one
+  // of `pulse_width`, its times counted from `time`.
+  std::optional<MeasuredCurve> beam = {}, pulse = {};
 };
 
 // The light of one flash of a run. Throws UsageError when its number of photons is unknown, or the module's
@@ -58,6 +62,7 @@ class FlasherSource : public Source {
   std::size_t module_;
   Vec3f centre_;
   Vec3f led_;  // the first LED's direction, at azimuth 0 when there are LEDs all around
+  std::optional<QuantileTable> beam_angles_, pulse_times_;  // where they were measured
 };
 
 // All photons start at one place and time, into all directions alike, or along `direction`.

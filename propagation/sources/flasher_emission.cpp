@@ -63,6 +63,18 @@ void widen_beam(float w, RandomStreams& random, EmittedPhotons& photons) {
   }
 }
 
+// Turns every direction by an angle of a measured beam: 1 - cos = 2 sin^2 of its half.
+void widen_beam(const QuantileTable& table, RandomStreams& random, EmittedPhotons& photons) {
+  const auto angles = table.view();
+  constexpr auto half_turns = static_cast<float>(1 / (4 * pi));
+#pragma omp simd
+  for (int i = 0; i < N; ++i) {
+    const float half = turn_functions(half_turns * angles(random.uniform(i))).sine;
+    const TurnFunctions<float> turn = turn_functions(random.uniform(i));
+    deflect(2 * half * half, turn.cosine, turn.sine, photons.nx[i], photons.ny[i], photons.nz[i]);
+  }
+}
+
 // Gives every photon to one of `leds` LEDs that stand evenly about the vertical, all lit alike.
 void turn_to_leds(int leds, RandomStreams& random, EmittedPhotons& photons) {
   const auto count = static_cast<float>(leds), spacing = 1 / count;
@@ -80,6 +92,13 @@ void turn_to_leds(int leds, RandomStreams& random, EmittedPhotons& photons) {
 void spread_over_pulse(float width, RandomStreams& random, EmittedPhotons& photons) {
 #pragma omp simd
   for (int i = 0; i < N; ++i) photons.time[i] += width * random.uniform(i);
+}
+
+// Delays every photon by its place in a measured pulse.
+void spread_over_pulse(const QuantileTable& table, RandomStreams& random, EmittedPhotons& photons) {
+  const auto times = table.view();
+#pragma omp simd
+  for (int i = 0; i < N; ++i) photons.time[i] += times(random.uniform(i));
 }
 
 // `ahead` of a place, along each photon's direction.
@@ -104,14 +123,19 @@ void FlasherSource::emit(RandomStreams& random, EmittedPhotons& photons) const {
     same_direction(led_, photons);
     if (!settings_.azimuth) turn_about_vertical(random, photons);
     const auto w = static_cast<float>(settings_.beam_width * settings_.beam_width);
-    if (w > 0) widen_beam(w, random, photons);
+    if (beam_angles_)
+      widen_beam(*beam_angles_, random, photons);
+    else if (w > 0)
+      widen_beam(w, random, photons);
     if (settings_.azimuth && settings_.leds > 1) turn_to_leds(settings_.leds, random, photons);
   }
   const auto left = static_cast<float>(settings_.time + module_radius / speed_of_light);
   start_ahead(centre_, static_cast<float>(module_radius), left, photons);
   // Numbers for the pulse are drawn last, and only for a pulse: without one a seed means the same photons as
   // ever.
-  if (settings_.pulse_width > 0)
+  if (pulse_times_)
+    spread_over_pulse(*pulse_times_, random, photons);
+  else if (settings_.pulse_width > 0)
     spread_over_pulse(static_cast<float>(settings_.pulse_width), random, photons);
 }
 

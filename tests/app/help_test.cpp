@@ -71,7 +71,10 @@ TEST(Help, ExamplesRunAsPrinted) {
   write_bytes(
       folder.path() / "runs.toml",
       "[defaults]\nphotons = 1e7\n[[run]]\nmodule = [63, 20]\n[[run]]\nmodule = [63, 20]\nleds = 3\n");
-  for (const std::string command : {"info", "effects", "crystal", "simulate", "export", "import"})
+  write_bytes(folder.path() / "fit.json",
+              R"({"events": [{"event": "cascade", "status": "ok", "fit": {"x": 20, "y": -40, "z": -300,
+              "time_ns": 0, "zenith_deg": 70, "azimuth_deg": 130, "energy_gev": 3000}}]})");
+  for (const std::string command : {"info", "effects", "crystal", "simulate", "export", "import", "view"})
     for (const std::string& example : examples_of(command)) {
       const Outcome outcome = run_floe(folder.path(), example);
       EXPECT_EQ(outcome.code, 0) << "floe " << example << "\n" << outcome.err;

@@ -20,6 +20,7 @@ TEST_P(WrongUsage, IsSaidAndLeavesNothing) {
 
 const std::string cascade = "simulate --cascade 20,-40,-300,70,130,1 -o out.h5 ";
 const std::string flasher = "simulate --flasher 63,20 -o out.h5 ";
+const std::string point = "simulate --point 20,-40,-300 -o out.h5 ";
 
 const WrongCase cases[] = {
     {"NoCommand", "", 2, "no command"},
@@ -31,7 +32,8 @@ const WrongCase cases[] = {
     {"OptionTwice", cascade + "--seed 1 --seed 2", 2, "--seed"},
     {"OptionWithoutValue", cascade + "--seed", 2, "--seed"},
     {"NoOutput", "simulate --cascade 20,-40,-300,70,130,1", 2, "--output"},
-    {"NoSource", "simulate -o out.h5", 2, "exactly one of --flasher, --flashers, --cascade and --f2k"},
+    {"NoSource", "simulate -o out.h5", 2,
+     "exactly one of --flasher, --flashers, --cascade, --f2k, --point and --standard-candle"},
     {"TwoSources", cascade + "--flasher 63,20 --photons 1e6", 2, "exactly one of"},
     {"TwoKindsOfFlashers", flasher + "--photons 1e6 --flashers runs.toml", 2, "exactly one of"},
     {"CascadeOfFiveNumbers", "simulate --cascade 20,-40,-300,70,130 -o out.h5", 2, "expected 6 numbers"},
@@ -49,6 +51,14 @@ const WrongCase cases[] = {
     {"PhotonsWithRest", flasher + "--photons 2e9x", 2, "found \"2e9x\""},
     {"PhotonsBeyondDouble", flasher + "--photons 1e999", 2, "--photons"},
     {"PhotonsOfCascade", cascade + "--photons 1e6", 2, "--photons requires --flasher"},
+    {"EmittedOfFlasher", flasher + "--photons 1e6 --emitted 1e9", 2, "--emitted requires --point"},
+    {"PointWithoutPhotons", point, 2, "--point needs one of --photons N and --emitted N"},
+    {"PointOfTwoBrightnesses", point + "--photons 1e6 --emitted 1e9", 2, "needs one of"},
+    {"PointOfTwoNumbers", "simulate --point 1,2 --photons 1e6 -o out.h5", 2, "expected 3 numbers"},
+    {"DirectionOfAnIsotropicPoint", point + "--photons 1e6 --elevation 30", 2, "needs --opening"},
+    {"PointAndCandle", point + "--photons 1e6 --standard-candle 0,0,0", 2, "--point excludes"},
+    {"BeamOfPoint", point + "--photons 1e6 --beam beam.txt", 3, "beam.txt"},
+    {"NoPhotonsAtMost", cascade + "--most-photons 0", 2, "--most-photons"},
     {"WavelengthInMicrometres", flasher + "--photons 1e6 --wavelength 0.405", 2, "--wavelength"},
     {"BeamOfIsotropicFlasher", flasher + "--photons 1e6 --isotropic --width 5", 2, "--isotropic"},
     {"OversizeBelowOne", cascade + "--oversize 0.5", 2, "--oversize"},

@@ -8,28 +8,15 @@
 #include "propagation/ice/ice_model.h"
 #include "propagation/sources/cascade.h"
 #include "propagation/sources/flasher.h"
+#include "tests/physics/engine/source_samples.h"
 #include "tests/physics/engine/test_scenes.h"
 
 namespace floe {
 namespace {
 
-constexpr int draws = 200000;
-
-struct Sample {
-  double mean = 0, variance = 0;
-  double error() const { return std::sqrt(variance / draws); }
-};
-template <typename Function>
-Sample sample(const Source& source, Function value) {
-  double sum = 0, square = 0;
-  for (int i = 0; i < draws; ++i) {
-    RandomStream random(1, 0, static_cast<std::uint64_t>(i));
-    const double x = value(source.emit(random));
-    sum += x;
-    square += x * x;
-  }
-  return {sum / draws, square / draws - sum * sum / draws / draws};
-}
+using test::draws;
+using test::sample;
+using test::Sample;
 
 Cascade example_cascade(CascadeKind kind, double energy) {
   Cascade cascade;

@@ -9,6 +9,8 @@
 #include "data/base/error.h"
 #include "propagation/sources/cascade.h"
 #include "propagation/sources/flasher.h"
+#include "propagation/sources/laser.h"
+#include "propagation/sources/muon.h"
 
 namespace floe {
 namespace {
@@ -74,6 +76,34 @@ TEST(Emission, OfCascadesIsTheSameAlone) {
         // angle follows from the colour.
         expect_the_same_alone(CascadeSource(cascade, spectrum()), 5, 3);
       }
+    }
+}
+
+TEST(Emission, OfMuonsIsTheSameAlone) {
+  MuonSegment muon;
+  muon.position = {-300, 200, 100};
+  muon.length = 400;
+  muon.energy = 500;
+  for (const double zenith : {0.0, 1.0, pi}) {
+    muon.zenith = zenith;
+    // Colour, place, whose light it is, and two angles each for the particle and for the photon around it;
+    // the Cherenkov angle follows from the colour.
+    expect_the_same_alone(MuonSource(muon, spectrum()), 6, 3);
+  }
+}
+
+TEST(Emission, OfLasersIsTheSameAlone) {
+  LaserSettings light;
+  light.photons = 1;
+  for (const bool isotropic : {false, true})
+    for (const Vec3& axis : {Vec3(0, 0, 1), Vec3(0, 0, -1), Vec3(0.6, 0, 0.8)}) {
+      light.isotropic = isotropic;
+      light.axis = axis;
+      light.opening = 0.7;
+      light.pulse.reset();
+      expect_the_same_alone(LaserSource(light), 2, 3);
+      light.pulse = MeasuredCurve({{0, 1}, {5, 0}});
+      expect_the_same_alone(LaserSource(light), 3, 3);
     }
 }
 
@@ -145,6 +175,16 @@ TEST_F(FlasherEmission, IsTheSameAloneWithPatternsAndPulses) {
           const int draws = 1 + (ring || leds > 1 ? 1 : 0) + (width > 0 ? 2 : 0) + (pulse > 0 ? 1 : 0);
           expect_the_same_alone(FlasherSource(detector_, {1, 1}, settings, led_line(405)), draws, 3);
         }
+}
+
+// Measured curves take the numbers that a beam and a pulse take without them.
+TEST_F(FlasherEmission, IsTheSameAloneWithMeasuredCurves) {
+  FlasherSettings settings;
+  settings.photons = 1000;
+  settings.azimuth = 0.5;
+  settings.beam = MeasuredCurve({{0, 1}, {0.3, 0.5}, {pi, 0}});
+  settings.pulse = MeasuredCurve({{-2, 0}, {0, 1}, {9, 0}});
+  expect_the_same_alone(FlasherSource(detector_, {1, 1}, settings, led_line(405)), 4, 3);
 }
 
 // Each photon of a pulse is the one it would be without, only later.
