@@ -70,7 +70,10 @@ EventData::EventData(const Detector& detector, const Event& event, const DataSel
   for (const Hit& hit : event.hits) {
     check(hit, id_);
     const std::size_t index = detector.index_of(hit.module);
-    if (!used[index] || hit.charge == 0 || is_left_out(selection.left_out, hit.module, hit.time)) continue;
+    if (!used[index] || hit.charge == 0) continue;
+    if (afterpulses_.share > 0)
+      modules[index].afterpulse_sources.emplace_back(hit.time, hit.charge * repeats_);
+    if (is_left_out(selection.left_out, hit.module, hit.time)) continue;
     modules[index].times.push_back(hit.time);
     modules[index].charges.push_back(hit.charge * repeats_);
     first_ = std::min(first_, hit.time);
@@ -113,9 +116,9 @@ void EventData::learn_from(const Readout& readout) {
 double EventData::afterpulses_between(const ModuleData& data, double low, double high) const {
   if (afterpulses_.share <= 0) return 0;
   double sum = 0;
-  for (std::size_t i = 0; i < data.times.size(); ++i)
-    sum += data.charges[i] * (afterpulses_until(afterpulses_, high - data.times[i]) -
-                              afterpulses_until(afterpulses_, low - data.times[i]));
+  for (const auto& [time, charge] : data.afterpulse_sources)
+    sum +=
+        charge * (afterpulses_until(afterpulses_, high - time) - afterpulses_until(afterpulses_, low - time));
   return afterpulses_.share * sum / repeats_;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "data/event.h"
@@ -23,6 +24,8 @@ struct ModuleData {
   std::vector<double> counts;  // charge in each bin: edges.size() + 1 numbers
   std::vector<double> noise;   // expected dark counts and afterpulses of one event in each bin
   std::vector<bool> left_out;  // bins that are not used; their counts are 0
+  // What afterpulses follow: all of its pulses, at times that are used or not; times [ns] and charges.
+  std::vector<std::pair<double, double>> afterpulse_sources;
 };
 
 // The hits of one event sorted by module and cut into bins: Bayesian blocks over 25 ns cells where there

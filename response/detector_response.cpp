@@ -14,8 +14,10 @@ namespace {
 
 constexpr std::uint64_t draws_of_hits = std::uint64_t{1} << 40;  // streams of hits begin here, modules below
 
+// Detectors say in one of two ways which modules have a high quantum efficiency.
 double noise_factor(const Module& module, const ResponseSettings& settings) {
-  return module.high_qe_spectrum ? settings.noise.high_efficiency_factor : 1;
+  const bool high_efficiency = module.high_qe_spectrum || module.relative_efficiency > 1.2;
+  return high_efficiency ? settings.noise.high_efficiency_factor : 1;
 }
 
 int whole_repeats(const Event& event) {

@@ -68,7 +68,7 @@ TEST(EventData, SaysWhenLightIsNotEnough) {
 // Modules that were off, dark noise, times that cannot be used and afterpulses are those of the record.
 TEST(EventData, LearnsFromTheReadout) {
   const Detector detector = small_detector();
-  Event event{"e", {hit(1, 0), hit(2, 0, 100), hit(2, 5000), hit(3, 50), hit(3, 950)}, {}, 1};
+  Event event{"e", {hit(1, 0), hit(2, 0, 100), hit(2, 5000), hit(3, 50), hit(3, 950, 40)}, {}, 1};
   RecordingModules modules;
   for (int dom = 1; dom <= 6; ++dom) modules.push_back({{1, dom}, dom != 1, dom * 1e3});
   event.readout = Readout{-4000,
@@ -87,6 +87,12 @@ TEST(EventData, LearnsFromTheReadout) {
   // From 300 ns after 100 photoelectrons until 5200 ns; those of the last come later.
   const double afterpulses = 0.06 * 100 * std::log(5200.0 / 300) / std::log(11000.0 / 300);
   EXPECT_NEAR(noise, 2e3 * window + afterpulses, 1e-6);
+  noise = 0;
+  for (const double n : data.lit()[1].noise) noise += n;
+  // What could not be used has afterpulses, too.
+  const double of_dead = 0.06 * 40 * std::log((5200.0 - 950) / 300) / std::log(11000.0 / 300);
+  const double of_used = 0.06 * std::log((5200.0 - 50) / 300) / std::log(11000.0 / 300);
+  EXPECT_NEAR(noise, 3e3 * window + of_dead + of_used, 1e-6);
 
   DataSelection asked;
   asked.noise_rate = 500;  // what the user names counts
