@@ -20,8 +20,8 @@ std::vector<SimulatedHit> noise_hits(const Model& model, const NoiseWindow& wind
   std::vector<std::uint32_t> modules;
   for (std::size_t m = 0; m < model.detector->size(); ++m)
     if (model.detector->modules()[m].on && emitter != m) modules.push_back(static_cast<std::uint32_t>(m));
-  const double expected = model.noise_rate * seconds_per_nanosecond * (window.to - window.from) *
-                          window.readouts * static_cast<double>(modules.size());
+  const double expected = (model.noise_rate + window.known_rate) * seconds_per_nanosecond *
+                          (window.to - window.from) * window.readouts * static_cast<double>(modules.size());
   std::vector<SimulatedHit> hits;
   if (!(expected > 0)) return hits;
   RandomStream random(seed, stream, first_noise_hit);

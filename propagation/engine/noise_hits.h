@@ -16,6 +16,7 @@ inline constexpr std::uint64_t first_noise_hit = std::uint64_t{1} << 62;
 struct NoiseWindow {
   double from = 0, to = 5000;  // times of hits in one readout [ns]
   double readouts = 1;         // that the hits are the sum of; need not be whole
+  double known_rate = 0;       // of every module, in addition to the model's [Hz]: what a record says of it
 };
 
 // Of all modules that are on, at the model's rate (Model::noise_rate): a Poisson number, at times spread

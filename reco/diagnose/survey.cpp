@@ -145,7 +145,8 @@ class Surveyor {
             settings_.seed,
             first_stream + plan_.stream * streams_a_survey + r * streams_a_run + purpose,
             settings_.threads,
-            noise_window(data_.runs[r], data_.runs[r].charge / look_.hits_per_photon[r])};
+            noise_window(data_.runs[r], data_.runs[r].charge / look_.hits_per_photon[r]),
+            data_.runs[r].afterpulses};
   }
 
   void look_at(std::size_t r) {
@@ -173,8 +174,8 @@ class Surveyor {
     result.scale = measured.nuisances.brightness / photons;
     result.dispersion = dispersion(simulated);
     result.model_error = settings_.model_error;
-    result.draws = PhotonDraws(simulated, bins, result.scale, run.run.oversize > 1);
-    result.data_dispersion = run.run.oversize > 1 ? result.dispersion : 1;
+    result.draws = PhotonDraws(simulated, bins, result.scale, run.run.oversize > 1, run.charge_dispersion);
+    result.data_dispersion = (run.run.oversize > 1 ? result.dispersion : 1) * run.charge_dispersion;
     measure_slopes(request(r, 1, photons), simulated, result);
     survey_.bins += bins.size();
     survey_.runs.push_back(std::move(result));

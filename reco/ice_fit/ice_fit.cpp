@@ -82,7 +82,8 @@ class Fit {
             options_.seed,
             first_stream + static_cast<std::uint64_t>(round_) * streams_a_round + r * streams_a_run + purpose,
             options_.threads,
-            noise_window(data_.runs[r], states_[r].brightness)};
+            noise_window(data_.runs[r], states_[r].brightness),
+            data_.runs[r].afterpulses};
   }
 
   // How much light of each run is seen, in the starting model, and which receivers cannot be right.
@@ -185,7 +186,7 @@ class Fit {
     counts.data = run.counts(bins);
     counts.scale = state.brightness / light.photons;
     counts.dispersion = dispersion(simulated);
-    counts.data_dispersion = run.run.oversize > 1 ? counts.dispersion : 1;
+    counts.data_dispersion = (run.run.oversize > 1 ? counts.dispersion : 1) * run.charge_dispersion;
     counts.model_error = options_.model_error;
     const int nuisance = static_cast<int>(count() + 2 * r);
     if (round_ <= 2) {

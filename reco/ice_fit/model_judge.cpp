@@ -35,7 +35,8 @@ RunRequest ModelJudge::request(std::size_t run, std::uint64_t purpose, double ph
           settings_.seed,
           stream_ + purpose * data_.runs.size() + run,
           settings_.threads,
-          noise_window(data_.runs[run], data_.runs[run].charge / hits_per_photon_[run])};
+          noise_window(data_.runs[run], data_.runs[run].charge / hits_per_photon_[run]),
+          data_.runs[run].afterpulses};
 }
 
 RunMeasurement ModelJudge::measure(const Model& model, std::size_t run) const {
@@ -51,7 +52,7 @@ ModelJudge::Fit ModelJudge::judge(const Model& model, std::size_t run) const {
   delay(simulated, fit.measured.nuisances.time_zero);
   const double factor = dispersion(simulated), brightness = fit.measured.nuisances.brightness;
   const PhotonDraws pseudo(simulated, views_[run].bins, brightness / photons_[run],
-                           data_.runs[run].run.oversize > 1);
+                           data_.runs[run].run.oversize > 1, data_.runs[run].charge_dispersion);
   std::seed_seq sequence{settings_.seed, settings_.seed >> 32, stream_ + run};
   std::mt19937_64 random(sequence);
   for (int d = 0; d < draws; ++d) {

@@ -1,5 +1,6 @@
 #include "reco/ice_fit/photon_draws.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace floe {
@@ -35,8 +36,12 @@ class SmallPoisson {
 
 }  // namespace
 
-PhotonDraws::PhotonDraws(const SimulatedRun& simulated, const RunBins& bins, double scale, bool whole_photons)
-    : size_(bins.size()), scale_(scale), whole_photons_(whole_photons) {
+PhotonDraws::PhotonDraws(const SimulatedRun& simulated, const RunBins& bins, double scale, bool whole_photons,
+                         double charge_dispersion)
+    : size_(bins.size()),
+      scale_(scale),
+      whole_photons_(whole_photons),
+      charge_dispersion_(charge_dispersion) {
   const auto& hits = simulated.hits;
   for (std::size_t i = 0; i < hits.size();) {
     const std::uint64_t photon = hits[i].photon;
@@ -65,6 +70,11 @@ FoldedCounts PhotonDraws::draw(std::mt19937_64& random) const {
   if (!whole_photons_)
     for (Eigen::Index b = 0; b < size_; ++b)
       if (expected(b) > 0) counts.data(b) = std::poisson_distribution<int>(expected(b))(random);
+  if (charge_dispersion_ > 1)
+    for (Eigen::Index b = 0; b < size_; ++b) {
+      const double width = std::sqrt((charge_dispersion_ - 1) * counts.data(b));
+      counts.data(b) = std::max(0.0, counts.data(b) + std::normal_distribution<double>(0, 1)(random) * width);
+    }
   return counts;
 }
 

@@ -24,7 +24,9 @@ class PhotonDraws {
   PhotonDraws() = default;
   // `scale`: expected counts of the data for one simulated hit; `whole_photons`: the data are hits of photons
   // of as wide modules as the simulated ones; otherwise counts of the data are independent of each other.
-  PhotonDraws(const SimulatedRun& simulated, const RunBins& bins, double scale, bool whole_photons);
+  // `charge_dispersion`: by how much their variance is larger, at least 1, since charges differ.
+  PhotonDraws(const SimulatedRun& simulated, const RunBins& bins, double scale, bool whole_photons,
+              double charge_dispersion = 1);
 
   FoldedCounts draw(std::mt19937_64& random) const;
 
@@ -36,6 +38,7 @@ class PhotonDraws {
   int size_ = 0;
   double scale_ = 1;
   bool whole_photons_ = false;
+  double charge_dispersion_ = 1;
   std::vector<int> bins_;
   std::vector<SeenPhoton> photons_;
 };

@@ -19,12 +19,41 @@ constexpr double plenty = 30;
 // either.
 constexpr double hardly_any = 0.02;
 
+// Single photoelectrons do not all have the same charge. Told by modules that seldom have two in a flash: a
+// sum of n charges q has the variance n <q^2>.
+double charge_dispersion(const RunData& data) {
+  constexpr double seldom = 0.1;  // photoelectrons a flash
+  std::vector<double> light(data.used.size(), 0);
+  for (const RunData::Pulse& pulse : data.pulses) light[pulse.module] += pulse.charge / data.repeats;
+  double sum = 0, squares = 0;
+  for (const RunData::Pulse& pulse : data.pulses) {
+    if (light[pulse.module] > seldom) continue;
+    sum += pulse.charge;
+    squares += pulse.charge * pulse.charge;
+  }
+  return sum > 0 ? std::max(1.0, squares / sum) : 1;
+}
+
 // Modules that were off in the record, and those that could not follow the light.
 void leave_out_recorded_badly(const Detector& detector, const Readout& readout, std::vector<char>& used) {
   for (const RecordingModule& module : *readout.modules)
     if (!module.on) used[detector.index_of(module.id)] = 0;
   for (const UnusableTimes& times : readout.unusable)
     if (times.reason == UnusableTimes::Reason::saturated) used[detector.index_of(times.module)] = 0;
+}
+
+// What fits have to know of the electronics that are not in the light.
+void take_record(const Readout& readout, RunData& data) {
+  data.first = readout.begin, data.last = readout.end;
+  data.afterpulses = readout.afterpulses;
+  double on = 0;
+  for (const RecordingModule& module : *readout.modules) {
+    if (!module.on) continue;
+    data.noise_rate += module.noise_rate;
+    on += 1;
+  }
+  if (on > 0) data.noise_rate /= on;
+  data.charge_dispersion = charge_dispersion(data);
 }
 
 RunData run_data(const Detector& detector, const Event& event) {
@@ -47,6 +76,7 @@ RunData run_data(const Detector& detector, const Event& event) {
     const auto [first, last] = std::ranges::minmax(data.pulses, {}, &RunData::Pulse::time);
     data.first = first.time, data.last = last.time;
   }
+  if (event.readout) take_record(*event.readout, data);
   return data;
 }
 

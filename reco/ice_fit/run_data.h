@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "data/event.h"
+#include "data/readout.h"
 #include "geometry/detector.h"
 #include "reco/ice_fit/run_bins.h"
 
@@ -21,9 +22,13 @@ struct RunData {
   FlasherRun run;
   double repeats = 1;
   std::vector<Pulse> pulses;
-  std::vector<char> used;      // by module: looked at in this run
-  double charge = 0;           // of used modules
-  double first = 0, last = 0;  // times of the first and the last pulse [ns]
+  std::vector<char> used;  // by module: looked at in this run
+  double charge = 0;       // of used modules
+  // Of the electronics' record, where there is one; else from the first to the last pulse, without any.
+  double first = 0, last = 0;  // when modules were awake [ns]
+  double noise_rate = 0;       // of dark noise, charge a module and second [pe/s]
+  ExpectedAfterpulses afterpulses = {.share = 0};
+  double charge_dispersion = 1;  // variance of the charge over that of the number of photoelectrons
 
   Eigen::VectorXd counts(const RunBins& bins) const;
 };

@@ -7,12 +7,14 @@
 
 #include "propagation/sources/flasher.h"
 #include "reco/ice_fit/smooth_slopes.h"
+#include "response/afterpulses.h"
 
 namespace floe {
 
 namespace {
 
-constexpr double time_step = 2;    // [ns] each way, for the slope in time zero
+constexpr double time_step = 2;  // [ns] each way, for the slope in time zero
+constexpr std::uint64_t first_afterpulse = first_noise_hit + (std::uint64_t{1} << 61);
 constexpr std::size_t parts = 16;  // of the work: sums come out alike for any number of threads
 
 FlasherSource source_of(const Model& model, const RunRequest& request) {
@@ -27,6 +29,20 @@ LightFold empty_fold(int bins, int parameters) {
   return {Eigen::VectorXd::Zero(bins), Eigen::MatrixXd::Zero(bins, parameters),
           Eigen::MatrixXd::Zero(bins, parameters), Eigen::MatrixXd::Zero(bins, parameters),
           Eigen::VectorXd::Zero(bins)};
+}
+
+// They follow hits, but are like noise in that no path leads to them.
+void add_afterpulses(const RunRequest& request, SimulatedRun& run) {
+  if (!(request.afterpulses.share > 0)) return;
+  RandomStream random(request.seed, request.stream, first_afterpulse);
+  const std::size_t light = run.hits.size();
+  for (std::size_t i = 0; i < light; ++i) {
+    if (random.uniform() >= request.afterpulses.share) continue;
+    SimulatedHit hit = run.hits[i];
+    hit.time += static_cast<float>(draw_afterpulse_delay(request.afterpulses, random));
+    hit.photon = first_afterpulse + i;
+    run.hits.push_back(hit);
+  }
 }
 
 }  // namespace
@@ -55,6 +71,7 @@ SimulatedRun simulate_run(const Model& model, const RunRequest& request) {
                               run.hits.insert(run.hits.end(), hits.begin(), hits.end());
                             })
                        .propagated;
+  add_afterpulses(request, run);
   NoiseWindow noise = request.noise;
   noise.readouts *= request.photons;
   const auto hits = noise_hits(model, noise, source.emitting_module(), request.seed, request.stream);

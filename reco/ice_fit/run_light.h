@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "data/flasher_run.h"
+#include "data/readout.h"
 #include "propagation/engine/noise_hits.h"
 #include "propagation/model.h"
 #include "reco/ice_fit/run_bins.h"
@@ -43,6 +44,7 @@ struct RunRequest {
   int threads = 0;
   // In which noise is simulated, too; readouts of one N.
   NoiseWindow noise = {0, 0, 0};
+  ExpectedAfterpulses afterpulses = {.share = 0};
 };
 
 // All hits of a run.
