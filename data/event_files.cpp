@@ -4,6 +4,7 @@
 
 #include "data/base/error.h"
 #include "data/event_rules.h"
+#include "data/hdf5_input.h"
 #include "data/hdf5_reader.h"
 #include "data/text_events.h"
 

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "data/base/error.h"
-#include "data/hdf5_reader.h"
+#include "data/hdf5_input.h"
 #include "data/hdf5_schema.h"
 
 namespace floe {
