@@ -76,7 +76,7 @@ TEST_F(Scan, OfGrainsTradesSizeForElongation) {
       "simulate --flashers runs.toml --oversize 50 --quiet -o runs.h5 --with "
       "grains.elongation=1.7,grains.size=0.8");
   floe_well(
-      "scan runs.h5 --oversize 50 --light 10 --quiet --x grains.elongation=1:2.4:3 --y grains.size=0.5:1.1:3 "
+      "scan runs.h5 --oversize 50 --light 5 --quiet --x grains.elongation=1:2.4:3 --y grains.size=0.5:1.1:3 "
       "-o map.json");
   const Json map = json_of("map.json");
   EXPECT_EQ(map["x"]["base"], 1.4);
