@@ -1,6 +1,7 @@
 // floe blind-trials: would the diagnosis have found it?
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
 #include <memory>
 #include <set>
@@ -67,6 +68,32 @@ std::string confusion(const BlindTrials& trials) {
   return text;
 }
 
+// Strengths that would have been seen, and how well those that were are known.
+std::string power(const BlindTrials& trials) {
+  TextTable table({"would have been seen above", "change", "unit"});
+  for (const SeenAbove& seen : trials.power)
+    table.add({seen.parameter, fmt::format("{:.3g}", seen.change), seen.unit});
+  int values = 0, within = 0;
+  for (const BlindTrial& trial : trials.trials)
+    for (std::size_t i = 0; i < trial.found.size(); ++i) {
+      ++values;
+      within += std::abs(trial.found[i] - trial.hidden.values[i].second) < 2 * trial.errors[i];
+    }
+  std::string text = trials.power.empty() ? "" : table.str();
+  if (values > 0) text += fmt::format("Values within two errors: {} of {}.\n", within, values);
+  return text;
+}
+
+Json power_json(const BlindTrials& trials) {
+  Json json = Json::array();
+  for (const SeenAbove& seen : trials.power)
+    json.push_back({{"effect", seen.effect},
+                    {"parameter", seen.parameter},
+                    {"seen_above", seen.change},
+                    {"unit", seen.unit}});
+  return json;
+}
+
 Json trial_json(const BlindTrial& trial) {
   Json values = Json::object();
   for (const auto& [name, value] : trial.hidden.values) values[name] = value;
@@ -79,6 +106,8 @@ Json trial_json(const BlindTrial& trial) {
           {"named_text", trial.named_text},
           {"group", trial.group},
           {"significance", trial.significance},
+          {"found", trial.found},
+          {"errors", trial.errors},
           {"right", trial.right()}};
 }
 
@@ -96,13 +125,14 @@ void run_trials(const BlindTrialsCommand& command) {
     ProgressBar bar(command.output.quiet);
     trials = run_blind_trials(base, runs, options, bar.callback());
   }
-  Json result = {{"version", FLOE_VERSION},   {"base", to_json(command.model)}, {"base_model", to_json(base)},
-                 {"runs", command.runs},      {"seed", options.seed},           {"alpha", options.alpha},
-                 {"seconds", trials.seconds}, {"trials", Json::array()}};
+  Json result = {
+      {"version", FLOE_VERSION},   {"base", to_json(command.model)}, {"base_model", to_json(base)},
+      {"runs", command.runs},      {"seed", options.seed},           {"alpha", options.alpha},
+      {"seconds", trials.seconds}, {"trials", Json::array()},        {"power", power_json(trials)}};
   for (const BlindTrial& trial : trials.trials) result["trials"].push_back(trial_json(trial));
   json.write(json_text(result));
   json.commit();
-  if (!command.output.quiet) fmt::print("{}{:.0f} s\n", confusion(trials), trials.seconds);
+  if (!command.output.quiet) fmt::print("{}{}{:.0f} s\n", confusion(trials), power(trials), trials.seconds);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@ namespace floe {
 void add_info(CLI::App& floe);
 void add_effects(CLI::App& floe);
 void add_simulate(CLI::App& floe, const std::string& command_line);
+void add_respond(CLI::App& floe, const std::string& command_line);
 void add_reconstruct(CLI::App& floe);
 void add_compare(CLI::App& floe);
 void add_study(CLI::App& floe);

@@ -34,6 +34,7 @@ void add_commands(CLI::App& app, const std::string& command_line) {
   floe::add_info(app);
   floe::add_effects(app);
   floe::add_simulate(app, command_line);
+  floe::add_respond(app, command_line);
   floe::add_reconstruct(app);
   floe::add_compare(app);
   floe::add_study(app);

@@ -99,6 +99,9 @@ std::vector<Event> listed_events(std::vector<Part>& parts) {
     if (here.detector_hash != first.detector_hash)
       throw InputError({part.file}, "events of detector " + here.detector_name,
                        fmt::format("the detector of {}, {}", parts.front().file, first.detector_name));
+    if (here.pulses != first.pulses)
+      throw InputError({part.file}, here.pulses ? "pulses" : "photons",
+                       fmt::format("{}, as in {}", first.pulses ? "pulses" : "photons", parts.front().file));
     for (Event& event : part.content.events) {
       const auto [known, is_new] = file_of.emplace(event.id, part.file);
       if (!is_new)
@@ -142,7 +145,7 @@ void run_merge(const MergeOptions& options, const std::string& command_line) {
   EventFileWriter writer(options.to, provenance);
   std::size_t hits = 0;
   for (const Event& event : events) {
-    writer.begin_event(event.id, event.truth, event.repeats, event.flasher);
+    writer.begin_event(event);
     writer.append(event.hits);
     hits += event.hits.size();
   }

@@ -13,6 +13,7 @@
 #include "data/base/error.h"
 #include "data/event_files.h"
 #include "data/flasher_text.h"
+#include "data/icetray_tables.h"
 
 namespace floe {
 
@@ -20,9 +21,10 @@ namespace {
 
 struct TransferOptions {
   std::string from, to;
-  std::string format;     // of export; empty: by suffix
-  std::string event;      // of export; empty: all
-  bool flashers = false;  // of import: a set of flasher runs
+  std::string format;                // of export; empty: by suffix
+  std::string event;                 // of export; empty: all
+  bool flashers = false;             // of import: a set of flasher runs
+  std::optional<std::string> table;  // of import: of an IceTray file with several
   OutputOptions output;
 };
 
@@ -54,11 +56,14 @@ void print_results(const TransferOptions& options, const std::vector<Transferred
 
 EventFormat format_of(const TransferOptions& options) {
   if (options.format.empty()) return event_format_of(options.to);
-  static const std::map<std::string, EventFormat> formats{
-      {"hits", EventFormat::hits}, {"dat", EventFormat::dat}, {"csv", EventFormat::csv}};
+  static const std::map<std::string, EventFormat> formats{{"hits", EventFormat::hits},
+                                                          {"dat", EventFormat::dat},
+                                                          {"csv", EventFormat::csv},
+                                                          {"icetray", EventFormat::icetray}};
   const auto found = formats.find(options.format);
   if (found == formats.end())
-    throw UsageError(fmt::format("--format: found \"{}\"; expected hits, dat or csv", options.format));
+    throw UsageError(
+        fmt::format("--format: found \"{}\"; expected hits, dat, csv or icetray", options.format));
   return found->second;
 }
 
@@ -92,13 +97,15 @@ Provenance provenance_of(const TransferOptions& options, const std::string& comm
 }
 
 void write_event(EventFileWriter& writer, const Event& event) {
-  writer.begin_event(event.id, event.truth, event.repeats, event.flasher);
+  writer.begin_event(event);
   writer.append(event.hits);
 }
 
 void import_events(const TransferOptions& options, Provenance provenance,
                    std::optional<EventFileWriter>& writer, std::vector<Transferred>& results) {
-  const std::vector<Event> events = read_event_file(options.from).events;
+  const std::vector<Event> events =
+      options.table ? read_icetray_pulses(options.from, options.table) : read_event_file(options.from).events;
+  provenance.pulses = events.front().readout.has_value();
   writer.emplace(options.to, provenance);
   for (const Event& event : events) write_event(*writer, event);
   results = transferred(events);
@@ -131,14 +138,15 @@ void run_import(const TransferOptions& options, const std::string& command_line)
 }  // namespace
 
 void add_export(CLI::App& floe) {
-  CLI::App& app = *floe.add_subcommand("export", "Write an event file as text for other tools");
+  CLI::App& app = *floe.add_subcommand("export", "Write an event file for other tools");
   const auto options = std::make_shared<TransferOptions>();
   app.add_option("FILE", options->from, "Event file to read")->type_name("FILE")->required();
   app.add_option("-o,--output", options->to,
-                 "Text to write; the format follows the suffix: .hits, .dat, .csv, also with .gz")
+                 "File to write; the format follows the suffix: .hits, .dat, .csv, also with .gz, or .i3.h5")
       ->type_name("OUT")
       ->required();
-  app.add_option("--format", options->format, "hits, dat or csv, whatever the suffix")->type_name("NAME");
+  app.add_option("--format", options->format, "hits, dat, csv or icetray, whatever the suffix")
+      ->type_name("NAME");
   app.add_option("--event", options->event, "Only the event of this name")->type_name("NAME");
   add_output_options(app, options->output);
   app.footer(
@@ -146,14 +154,17 @@ void add_export(CLI::App& floe) {
       "  floe export event.h5 -o event.hits\n"
       "  floe export event.h5 -o charges.dat.gz\n"
       "  floe export event.h5 -o table.txt --format csv\n"
-      "  floe export runs.h5 -o runs.hits");
+      "  floe export runs.h5 -o runs.hits\n"
+      "  floe export event.h5 -o pulses.i3.h5");
   app.callback([options] { run_export(*options); });
 }
 
 void add_import(CLI::App& floe, const std::string& command_line) {
-  CLI::App& app = *floe.add_subcommand("import", "Read a text of hits or charges into an event file");
+  CLI::App& app = *floe.add_subcommand(
+      "import", "Read a text of hits or charges, or IceTray's pulses, into an event file");
   const auto options = std::make_shared<TransferOptions>();
-  app.add_option("IN", options->from, "Text to read: .hits, .dat, also with .gz")
+  app.add_option("IN", options->from,
+                 "File to read: .hits, .dat, also with .gz, or pulses of IceTray's HDF5 writer")
       ->type_name("FILE")
       ->required();
   app.add_option("-o,--output", options->to, "Event file to write")->type_name("FILE.h5")->required();
@@ -161,6 +172,8 @@ void add_import(CLI::App& floe, const std::string& command_line) {
       "--flashers", options->flashers,
       "The text is a set of flasher runs, each opened by a FLASHER line: .hits, .txt, or .dat with charges "
       "that are averages over the flashes");
+  app.add_option("--table", options->table, "Of an IceTray file with several tables of pulses")
+      ->type_name("NAME");
   add_output_options(app, options->output);
   app.footer(
       "Examples:\n"

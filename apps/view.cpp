@@ -9,6 +9,7 @@
 #include "apps/view/page_data.h"
 #include "data/base/error.h"
 #include "data/event_files.h"
+#include "data/event_stream.h"
 
 namespace floe {
 
@@ -63,7 +64,9 @@ EventToShow read_event(const ViewOptions& options, const Detector& detector, std
   shown.file = std::filesystem::path(options.events).filename().string();
   shown.event = std::move(file.events[index]);
   shown.source = source_of(file.provenance);
-  shown.waveforms = read_waveforms(options.events, index);
+  // Files of other programs hold none.
+  if (file.provenance) shown.waveforms = EventFileReader(options.events).waveforms(index);
+  std::erase_if(shown.waveforms, [](const ModuleWaveform& waveform) { return waveform.repeat > 0; });
   if (!options.fit.empty()) shown.fit = read_fit_results(options.fit, shown.event.id);
   return shown;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "data/base/vec3.h"
 #include "data/flasher_run.h"
 #include "data/module_id.h"
+#include "data/readout.h"
 
 namespace floe {
 
@@ -24,6 +26,7 @@ struct Hit {
   // the module's centre (their product is positive); unit vectors, or unknown.
   Vec3f direction = Vec3f::Constant(unknown);
   Vec3f inward = Vec3f::Constant(unknown);
+  float width = unknown;  // of a pulse: its light may be spread over so much [ns]
 
   bool has_direction() const { return direction.x() == direction.x(); }
 };
@@ -44,6 +47,7 @@ struct Event {
   std::vector<Particle> truth;             // empty for measured data
   double repeats = 1;                      // the hits are an average over this many repetitions
   std::optional<FlasherRun> flasher = {};  // when the light is that of a flasher run
+  std::optional<Readout> readout = {};     // when the hits are pulses of which that is known
 };
 
 // Where a file came from: enough to make it again.
@@ -56,6 +60,7 @@ struct Provenance {
   unsigned long long seed = 0;
   double oversize = 1;
   bool weighted = false;  // the hits are weighted photons (docs/formats.md)
+  bool pulses = false;    // the hits are pulses, with widths; each event has a readout
 };
 
 }  // namespace floe

@@ -10,6 +10,7 @@
 #include "data/event_files.h"
 #include "data/event_rules.h"
 #include "data/flasher_text.h"
+#include "data/icetray_tables.h"
 
 namespace floe {
 
@@ -89,6 +90,7 @@ AppendHit line_of(EventFormat format) {
     case EventFormat::dat:
       return append_charge;
     case EventFormat::csv:
+    case EventFormat::icetray:  // which is no text
       break;
   }
   return append_csv;
@@ -103,16 +105,19 @@ bool are_flasher_runs(std::span<const Event> events) {
 
 EventFormat event_format_of(const std::filesystem::path& path) {
   const std::string suffix = text_suffix_of(path);
+  if (path.string().ends_with(".i3.h5")) return EventFormat::icetray;
   if (suffix == ".hits") return EventFormat::hits;
   if (suffix == ".dat") return EventFormat::dat;
   if (suffix == ".csv") return EventFormat::csv;
   throw UsageError(fmt::format(
-      "{}: the suffix '{}' names no format of export. Use .hits, .dat or .csv, each also with .gz",
+      "{}: the suffix '{}' names no format of export. Use .hits, .dat or .csv, each also with .gz, "
+      "or .i3.h5",
       path.string(), suffix));
 }
 
 void export_events(const std::filesystem::path& path, EventFormat format, std::span<const Event> events) {
   if (events.empty()) throw UsageError(path.string() + ": there is no event to export");
+  if (format == EventFormat::icetray) return write_icetray_pulses(path, events);
   const bool runs = format == EventFormat::hits && are_flasher_runs(events);
   if (events.size() > 1 && format != EventFormat::csv && !runs)
     throw UsageError(fmt::format(

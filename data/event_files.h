@@ -25,8 +25,14 @@ class EventFileWriter {
 
   void begin_event(const std::string& id, const std::vector<Particle>& truth, double repeats = 1,
                    const std::optional<FlasherRun>& flasher = {});
-  void append(std::span<const Hit> hits);  // to the event begun last
-  void close();                            // after at least one event
+  // The same with all that is known of the event besides its hits; a readout only in files of pulses.
+  void begin_event(const Event& event);
+  void append(std::span<const Hit> hits);  // to the event begun last, as all that follow
+  // What stands beside pulses; a file to which even an empty list was appended has the table.
+  void append_photons(std::span<const Hit> photons);
+  void append_photoelectrons(std::span<const ModulePhotoelectron> photoelectrons);
+  void append_waveforms(std::span<const ModuleWaveform> waveforms);
+  void close();  // after at least one event
 
  private:
   struct Impl;
@@ -38,14 +44,15 @@ struct EventFile {
   std::optional<Provenance> provenance;  // only floe's own files know it
 };
 
-// Reads .h5, .hits or .txt ("HIT" lines), .dat (charge list), each text also gzipped. A text file holds
-// one event, named after the file; among the "HIT" lines "EM ..." / "TR ..." lines of f2k may stand,
-// which become its truth. Throws InputError: missing, truncated, malformed, not finite, a text without
-// hits, an HDF5 file without events (a simulated event may well have no hits).
+// Reads .h5 (floe's own, and pulses as IceTray's HDF5 writer has them: data/icetray_tables.h), .hits or .txt
+// ("HIT" lines), .dat (charge list), each text also gzipped. A text file holds one event, named after the
+// file; among the "HIT" lines "EM ..." / "TR ..." lines of f2k may stand, which become its truth. Throws
+// InputError: missing, truncated, malformed, not finite, a text without hits, an HDF5 file without events (a
+// simulated event may well have no hits).
 EventFile read_event_file(const std::filesystem::path& path);
 
-// Formats of export; chosen by suffix (also with .gz).
-enum class EventFormat { hits, dat, csv };
+// Formats of export; chosen by suffix (.hits, .dat, .csv, each also with .gz; .i3.h5 is icetray).
+enum class EventFormat { hits, dat, csv, icetray };
 EventFormat event_format_of(const std::filesystem::path& path);  // throws UsageError
 
 // Writes one file of text for all events; more than one event in a format that cannot tell them apart (.dat;

@@ -49,6 +49,8 @@ std::optional<Problem> problem_of(const Hit& hit) {
   if (!std::isnan(hit.wavelength) && (!std::isfinite(hit.wavelength) || hit.wavelength <= 0))
     return number_problem("wavelength", hit.wavelength, "a wavelength above 0 [nm], or NaN when unknown");
   if (auto problem = direction_problem("photon direction", hit.direction)) return problem;
+  if (!std::isnan(hit.width) && !(hit.width >= 0 && std::isfinite(hit.width)))
+    return number_problem("width", hit.width, "a width of 0 or more [ns], or NaN when unknown");
   return direction_problem("direction to the module's centre", hit.inward);
 }
 

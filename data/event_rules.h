@@ -20,7 +20,8 @@ struct Problem {
 };
 
 // Module within its range, time finite, charge finite and above 0, wavelength above 0 or unknown,
-// directions unit vectors (within 0.001) or unknown. Whether the detector has the module is not asked.
+// directions unit vectors (within 0.001) or unknown, width 0 or more or unknown. Whether the detector has the
+// module is not asked.
 std::optional<Problem> problem_of(const Hit& hit);
 
 // Name known, everything finite, zenith in 0..pi, azimuth in 0..2 pi, energy above 0, length not

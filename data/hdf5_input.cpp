@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <fstream>
-
 #include "data/base/text.h"
+#include "data/hdf5_reader.h"
 
 namespace floe::hdf5 {
 
@@ -74,7 +72,7 @@ void expect_hdf5(const std::filesystem::path& path, const std::string& expected)
   throw InputError({path.string()}, empty ? "an empty file" : "a file that is not HDF5", expected);
 }
 
-Hdf5Handle open_file(const std::filesystem::path& path) {
+Hdf5Handle open_for_reading(const std::filesystem::path& path) {
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "set up the file");
   checked(H5Pset_file_locking(access, false, true), "set up the file");
   return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose, "open the file"};
@@ -86,15 +84,3 @@ void throw_input_error(const std::filesystem::path& path, const Hdf5Failure& fai
 }
 
 }  // namespace floe::hdf5
-
-namespace floe {
-
-bool is_hdf5(const std::filesystem::path& path) {
-  constexpr std::array<char, 8> signature = {'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};
-  expect_readable_file(path);
-  std::array<char, 8> begin{};
-  std::ifstream(path, std::ios::binary).read(begin.data(), begin.size());
-  return begin == signature;
-}
-
-}  // namespace floe

@@ -9,13 +9,6 @@
 #include "data/base/error.h"
 #include "data/hdf5_handle.h"
 
-namespace floe {
-
-// Whether a file begins as HDF5 files do, whatever its name. Throws InputError when it cannot be read.
-bool is_hdf5(const std::filesystem::path& path);
-
-}  // namespace floe
-
 namespace floe::hdf5 {
 
 inline constexpr const char* remake_advice =
@@ -44,7 +37,7 @@ void expect_format(const AttributeReader& attributes, const Location& where, con
 
 // Throws InputError unless the file is there and begins as HDF5 does; `expected`: what it should be.
 void expect_hdf5(const std::filesystem::path& path, const std::string& expected);
-Hdf5Handle open_file(const std::filesystem::path& path);
+Hdf5Handle open_for_reading(const std::filesystem::path& path);
 [[noreturn]] void throw_input_error(const std::filesystem::path& path, const Hdf5Failure& failure);
 
 // What work(file, where) returns, without messages from HDF5 itself. Throws InputError as above, and where
@@ -55,7 +48,7 @@ auto read_file(const std::filesystem::path& path, const std::string& expected, c
   expect_hdf5(path, expected);
   const Hdf5Silence silence;
   try {
-    const Hdf5Handle file = open_file(path);
+    const Hdf5Handle file = open_for_reading(path);
     return work(file, where);
   } catch (const Hdf5Failure& failure) {
     throw_input_error(path, failure);

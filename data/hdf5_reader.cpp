@@ -2,13 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <unordered_set>
 
 #include "data/base/text.h"
+#include "data/event_stream.h"
 #include "data/hdf5_input.h"
+#include "data/hdf5_readout_schema.h"
 #include "data/hdf5_schema.h"
+#include "data/hdf5_table_reader.h"
 
 namespace floe {
 
@@ -36,82 +41,6 @@ Provenance read_provenance(const AttributeReader& attributes, const Location& wh
     throw InputError(where, fmt::format("oversize {}", provenance.oversize), "a finite number above 0");
   return provenance;
 }
-
-H5T_class_t class_of(ColumnKind kind) {
-  switch (kind) {
-    case ColumnKind::text:
-      return H5T_STRING;
-    case ColumnKind::int32:
-    case ColumnKind::uint64:
-      return H5T_INTEGER;
-    default:
-      return H5T_FLOAT;
-  }
-}
-
-// HDF5 leaves a member that the file lacks as it is, so the columns are compared before reading.
-void expect_columns(const Hdf5Handle& type, std::span<const Column> columns, const char* table,
-                    const Location& where) {
-  if (H5Tget_class(type) != H5T_COMPOUND)
-    throw InputError(where, fmt::format("a data set '{}' of another kind", table), "a table of compounds");
-  for (const Column& column : columns) {
-    const int index = H5Tget_member_index(type, column.name);
-    if (index < 0)
-      throw InputError(where, fmt::format("no column '{}' in '{}'", column.name, table),
-                       "the columns of docs/formats.md");
-    if (H5Tget_member_class(type, static_cast<unsigned>(index)) != class_of(column.kind))
-      throw InputError(where, fmt::format("a column '{}' of another kind in '{}'", column.name, table),
-                       "the columns of docs/formats.md");
-  }
-  const int count = checked(H5Tget_nmembers(type), "read a table's columns");
-  if (count != static_cast<int>(columns.size()))
-    throw InputError(where, fmt::format("{} columns in '{}'", count, table),
-                     fmt::format("the {} columns of docs/formats.md", columns.size()));
-}
-
-template <typename Row>
-class TableReader {
- public:
-  TableReader(hid_t file, const Location& where) : where_(where) {
-    constexpr const char* name = Table<Row>::name;
-    if (checked(H5Lexists(file, name, H5P_DEFAULT), "look for a table") == 0)
-      throw InputError(where, fmt::format("no table '{}'", name), "the tables events, particles and hits");
-    table_ = Hdf5Handle(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose, "open a table");
-    const Hdf5Handle type(H5Dget_type(table_), H5Tclose, "read a table's columns");
-    expect_columns(type, Table<Row>::columns(), name, where);
-    row_type_ = row_type_in_memory(Table<Row>::columns(), sizeof(Row));
-    const Hdf5Handle space(H5Dget_space(table_), H5Sclose, "read a table's size");
-    if (H5Sget_simple_extent_ndims(space) != 1)
-      throw InputError(where, fmt::format("a table '{}' that is no list of rows", name), "one dimension");
-    checked(H5Sget_simple_extent_dims(space, &size_, nullptr), "read a table's size");
-  }
-
-  hsize_t size() const { return size_; }
-  const Location& where() const { return where_; }
-
-  // Calls use(row, index) for each row, holding one chunk of them in memory.
-  template <typename Use>
-  void for_each(const Use& use) const {
-    std::vector<Row> rows(Table<Row>::rows_per_chunk);
-    for (hsize_t begin = 0; begin < size_; begin += rows.size()) {
-      const hsize_t count = std::min<hsize_t>(rows.size(), size_ - begin);
-      read_rows(begin, count, rows.data());
-      for (hsize_t i = 0; i < count; ++i) use(rows[i], begin + i);
-    }
-  }
-
- private:
-  void read_rows(hsize_t begin, hsize_t count, Row* rows) const {
-    const Hdf5Handle in_file(H5Dget_space(table_), H5Sclose, "select rows");
-    checked(H5Sselect_hyperslab(in_file, H5S_SELECT_SET, &begin, nullptr, &count, nullptr), "select rows");
-    const Hdf5Handle in_memory(H5Screate_simple(1, &count, nullptr), H5Sclose, "select rows");
-    checked(H5Dread(table_, row_type_, in_memory, in_file, H5P_DEFAULT, rows), "read rows");
-  }
-
-  const Location& where_;
-  Hdf5Handle row_type_, table_;
-  hsize_t size_ = 0;
-};
 
 // Each event owns a range of rows; together the ranges cover a table without gap.
 struct EventRanges {
@@ -161,22 +90,8 @@ EventRanges read_ranges(const TableReader<EventRow>& table, hsize_t hits, hsize_
   return result;
 }
 
-// Gives each row's value, once checked, to the event whose range holds the row.
-template <typename Row, typename Convert, typename Keep>
-void distribute(const TableReader<Row>& table, EventRanges& ranges, const std::vector<hsize_t>& ends,
-                const Convert& convert, const Keep& keep) {
-  std::size_t event = 0;
-  table.for_each([&](const Row& row, hsize_t index) {
-    while (index >= ends[event]) ++event;
-    auto value = convert(row);
-    if (const auto problem = problem_of(value))
-      throw_problem(table.where(), *problem, Table<Row>::name, index);
-    keep(ranges.events[event], std::move(value));
-  });
-}
-
 // The sums of a weighted simulation's events must be what their hits add up to.
-void check_weights(const TableReader<WeightRow>& table, const std::vector<Event>& events) {
+void check_sums(const TableReader<WeightRow>& table, const std::vector<Event>& events) {
   std::vector<WeightRow> expected;
   for (std::size_t e = 0; e < events.size(); ++e) {
     ModuleWeights sums;
@@ -203,15 +118,21 @@ void check_weights(const TableReader<WeightRow>& table, const std::vector<Event>
   });
 }
 
+// Rows of tables that have at most one for an event go by event. `next` is the first that may follow.
+void expect_next(const Location& where, const char* table, hsize_t index, std::uint64_t event,
+                 std::uint64_t& next, std::size_t events) {
+  if (event < next || event >= events)
+    throw InputError(where, fmt::format("event {} in row {} of '{}'", event, index, table),
+                     fmt::format("a row of 'events' below {}, above that of the row before", events));
+  next = event + 1;
+}
+
 // Gives each flasher run to its event. Rows go by event, and an event has one at most.
 void read_flashers(const TableReader<FlasherRow>& table, std::vector<Event>& events) {
   const Location& where = table.where();
   std::uint64_t next = 0;  // the first event that may follow
   table.for_each([&](const FlasherRow& row, hsize_t index) {
-    if (row.event < next || row.event >= events.size())
-      throw InputError(
-          where, fmt::format("event {} in row {} of 'flashers'", row.event, index),
-          fmt::format("a row of 'events' below {}, above that of the row before", events.size()));
+    expect_next(where, "flashers", index, row.event, next, events.size());
     const std::optional<FlasherRun> run = flasher_of(row);
     const Problem unknown_leds{
         "LEDs " + in_quotes(std::string_view(row.leds, strnlen(row.leds, sizeof(row.leds)))),
@@ -219,39 +140,213 @@ void read_flashers(const TableReader<FlasherRow>& table, std::vector<Event>& eve
     if (const auto problem = run ? problem_of(*run) : unknown_leds)
       throw_problem(where, *problem, Table<FlasherRow>::name, index);
     events[row.event].flasher = run;
-    next = row.event + 1;
   });
 }
 
-bool has_table(hid_t file, const char* name) {
-  return checked(H5Lexists(file, name, H5P_DEFAULT), "look for a table") > 0;
-}
-
-EventFile read_open_file(hid_t file, const Location& where) {
-  const AttributeReader attributes(file, where);
-  expect_format(attributes, where, format_name, format_version);
-  EventFile result;
-  result.provenance = read_provenance(attributes, where);
-  const TableReader<EventRow> events(file, where);
-  const TableReader<ParticleRow> particles(file, where);
-  const TableReader<HitRow> hits(file, where);
-  EventRanges ranges = read_ranges(events, hits.size(), particles.size());
-  distribute(particles, ranges, ranges.particle_end, particle_of,
-             [](Event& event, Particle particle) { event.truth.push_back(std::move(particle)); });
-  distribute(hits, ranges, ranges.hit_end, hit_of,
-             [](Event& event, const Hit& hit) { event.hits.push_back(hit); });
-  result.events = std::move(ranges.events);
-  result.provenance->weighted = has_table(file, Table<WeightRow>::name);
-  if (result.provenance->weighted) check_weights(TableReader<WeightRow>(file, where), result.events);
-  if (has_table(file, Table<FlasherRow>::name))
-    read_flashers(TableReader<FlasherRow>(file, where), result.events);
-  return result;
+// The same of readouts, all with the file's modules.
+void read_readouts(const TableReader<ReadoutRow>& table, const TableReader<ModuleRow>& modules,
+                   std::vector<Event>& events) {
+  const Location& where = table.where();
+  RecordingModules list;
+  modules.for_each([&](const ModuleRow& row, hsize_t index) {
+    if (const auto problem = problem_of(row)) throw_problem(where, *problem, "modules", index);
+    list.push_back(module_of(row));
+  });
+  const auto shared = std::make_shared<const RecordingModules>(std::move(list));
+  std::uint64_t next = 0;
+  table.for_each([&](const ReadoutRow& row, hsize_t index) {
+    expect_next(where, "readouts", index, row.event, next, events.size());
+    if (const auto problem = problem_of(row)) throw_problem(where, *problem, "readouts", index);
+    events[row.event].readout = readout_of(row);
+    events[row.event].readout->modules = shared;
+  });
 }
 
 }  // namespace
 
+bool is_hdf5(const std::filesystem::path& path) {
+  constexpr std::array<char, 8> signature = {'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};
+  expect_readable_file(path);
+  std::array<char, 8> begin{};
+  std::ifstream(path, std::ios::binary).read(begin.data(), begin.size());
+  return begin == signature;
+}
+
+struct EventFileReader::Impl {
+  explicit Impl(const std::filesystem::path& path) : where{path.string()} {
+    expect_hdf5(path, "an HDF5 event file as 'floe simulate' and 'floe import' write it");
+    guarded([&] { open(path); });
+  }
+  ~Impl() {
+    const Hdf5Silence silence;
+    events.reset(), particles.reset(), hits.reset(), weights.reset(), unusable.reset();
+    photons.reset(), photoelectrons.reset(), waveforms.reset(), samples.reset();
+    file = {};
+  }
+
+  // Does `work` without messages from HDF5 itself; what HDF5 cannot read is an InputError.
+  template <typename Work>
+  void guarded(const Work& work) const {
+    const Hdf5Silence silence;
+    try {
+      work();
+    } catch (const Hdf5Failure& failure) {
+      throw_input_error(where.file, failure);
+    }
+  }
+
+  void open(const std::filesystem::path& path) {
+    file = open_for_reading(path);
+    const AttributeReader attributes(file, where);
+    expect_format(attributes, where, format_name, format_version);
+    provenance = read_provenance(attributes, where);
+    events.emplace(file, where), particles.emplace(file, where);
+    provenance.pulses = has_table(file, "hits") && has_column(file, "hits", "width_ns");
+    hits.emplace(file, where, provenance.pulses ? pulse_columns() : Table<HitRow>::columns());
+    ranges = read_ranges(*events, hits->size(), particles->size());
+    provenance.weighted = open_if_there(weights);
+    if (has_table(file, "flashers")) read_flashers(TableReader<FlasherRow>(file, where), ranges.events);
+    if (has_table(file, "readouts"))
+      read_readouts(TableReader<ReadoutRow>(file, where), TableReader<ModuleRow>(file, where), ranges.events);
+    open_if_there(unusable), open_if_there(photons), open_if_there(photoelectrons);
+    if (open_if_there(waveforms)) samples.emplace(file, where);
+  }
+
+  template <typename Row>
+  bool open_if_there(std::optional<TableReader<Row>>& table) {
+    if (has_table(file, Table<Row>::name)) table.emplace(file, where);
+    return table.has_value();
+  }
+
+  // Values of rows [begin, end), each checked.
+  template <typename Row, typename Convert>
+  auto values(const TableReader<Row>& table, std::pair<hsize_t, hsize_t> rows, const Convert& convert) const {
+    std::vector<decltype(convert(std::declval<const Row&>()))> result;
+    result.reserve(rows.second - rows.first);
+    table.for_each(rows.first, rows.second, [&](const Row& row, hsize_t index) {
+      result.push_back(convert(row));
+      if (const auto problem = problem_of(result.back()))
+        throw_problem(where, *problem, Table<Row>::name, index);
+    });
+    return result;
+  }
+
+  // Values of an event's rows, of a table that the file may not have; `convert` finds none in rows with names
+  // that are not known.
+  template <typename Row, typename Value, typename Convert>
+  void add_values(const std::optional<TableReader<Row>>& table, std::size_t event, const Convert& convert,
+                  std::vector<Value>& result) const {
+    if (!table) return;
+    const auto [begin, end] = table->rows_of(event);
+    table->for_each(begin, end, [&](const Row& row, hsize_t index) {
+      const std::optional<Value> value = convert(row);
+      if (!value)
+        throw InputError(where, fmt::format("an unknown name in row {} of '{}'", index, Table<Row>::name),
+                         "the names of docs/formats.md");
+      result.push_back(*value);
+    });
+  }
+
+  std::pair<hsize_t, hsize_t> range(const std::vector<hsize_t>& ends, std::size_t event) const {
+    return {event == 0 ? 0 : ends[event - 1], ends[event]};
+  }
+
+  Location where;
+  Hdf5Handle file;
+  Provenance provenance;
+  std::optional<TableReader<EventRow>> events;
+  std::optional<TableReader<ParticleRow>> particles;
+  std::optional<TableReader<HitRow>> hits;
+  std::optional<TableReader<WeightRow>> weights;
+  std::optional<TableReader<UnusableRow>> unusable;
+  std::optional<TableReader<PhotonRow>> photons;
+  std::optional<TableReader<PhotoelectronRow>> photoelectrons;
+  std::optional<TableReader<WaveformRow>> waveforms;
+  std::optional<TableReader<SampleRow>> samples;
+  EventRanges ranges;  // events without hits and particles
+};
+
+EventFileReader::EventFileReader(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(path)) {}
+EventFileReader::~EventFileReader() = default;
+EventFileReader::EventFileReader(EventFileReader&&) noexcept = default;
+
+const Provenance& EventFileReader::provenance() const {
+  return impl_->provenance;
+}
+std::size_t EventFileReader::size() const {
+  return impl_->ranges.events.size();
+}
+const std::string& EventFileReader::id(std::size_t event) const {
+  return impl_->ranges.events[event].id;
+}
+std::size_t EventFileReader::hit_count(std::size_t event) const {
+  const auto [begin, end] = impl_->range(impl_->ranges.hit_end, event);
+  return end - begin;
+}
+
+Event EventFileReader::read(std::size_t event) const {
+  Event result = impl_->ranges.events[event];
+  impl_->guarded([&] {
+    result.truth =
+        impl_->values(*impl_->particles, impl_->range(impl_->ranges.particle_end, event), particle_of);
+    result.hits = impl_->values(*impl_->hits, impl_->range(impl_->ranges.hit_end, event), hit_of);
+    if (result.readout && impl_->unusable)
+      for (const UnusableRow& row : impl_->values(*impl_->unusable, impl_->unusable->rows_of(event),
+                                                  [](const UnusableRow& same) { return same; }))
+        result.readout->unusable.push_back(*unusable_of(row));
+  });
+  return result;
+}
+
+std::vector<Hit> EventFileReader::photons(std::size_t event) const {
+  std::vector<Hit> result;
+  impl_->guarded([&] {
+    if (!impl_->photons) return;
+    result = impl_->values(*impl_->photons, impl_->photons->rows_of(event),
+                           [](const PhotonRow& row) { return hit_of(row.hit); });
+  });
+  return result;
+}
+
+std::vector<ModulePhotoelectron> EventFileReader::photoelectrons(std::size_t event) const {
+  std::vector<ModulePhotoelectron> result;
+  impl_->guarded([&] { impl_->add_values(impl_->photoelectrons, event, photoelectron_of, result); });
+  return result;
+}
+
+std::vector<ModuleWaveform> EventFileReader::waveforms(std::size_t event) const {
+  std::vector<ModuleWaveform> result;
+  impl_->guarded([&] {
+    const auto with_samples = [this](const WaveformRow& row) {
+      std::optional<ModuleWaveform> waveform = waveform_of(row);
+      const hsize_t size = impl_->samples->size();
+      if (row.first_sample > size || row.sample_count > size - row.first_sample)
+        throw InputError(impl_->where, "a waveform whose samples are not there", "rows of 'samples'",
+                         remake_advice);
+      if (waveform)
+        impl_->samples->for_each(
+            row.first_sample, row.first_sample + row.sample_count,
+            [&](const SampleRow& sample, hsize_t) { waveform->counts.push_back(sample.counts); });
+      return waveform;
+    };
+    impl_->add_values(impl_->waveforms, event, with_samples, result);
+  });
+  return result;
+}
+
+void EventFileReader::check_weights(const std::vector<Event>& events) const {
+  impl_->guarded([&] {
+    if (impl_->weights) check_sums(*impl_->weights, events);
+  });
+}
+
 EventFile read_hdf5_events(const std::filesystem::path& path) {
-  return read_file(path, "an HDF5 event file as 'floe simulate' and 'floe import' write it", read_open_file);
+  const EventFileReader reader(path);
+  EventFile result;
+  result.provenance = reader.provenance();
+  for (std::size_t i = 0; i < reader.size(); ++i) result.events.push_back(reader.read(i));
+  reader.check_weights(result.events);
+  return result;
 }
 
 }  // namespace floe

@@ -28,13 +28,13 @@ constexpr std::array particle_columns = {
     FLOE_COLUMN(ParticleRow, length_m, float64),   FLOE_COLUMN(ParticleRow, energy_gev, float64),
     FLOE_COLUMN(ParticleRow, time_ns, float64),
 };
-constexpr std::array hit_columns = {
+constexpr std::array all_hit_columns = {
     FLOE_COLUMN(HitRow, string, int32),          FLOE_COLUMN(HitRow, dom, int32),
     FLOE_COLUMN(HitRow, time_ns, float64),       FLOE_COLUMN(HitRow, charge_pe, float32),
     FLOE_COLUMN(HitRow, wavelength_nm, float32), FLOE_COLUMN(HitRow, direction_x, float32),
     FLOE_COLUMN(HitRow, direction_y, float32),   FLOE_COLUMN(HitRow, direction_z, float32),
     FLOE_COLUMN(HitRow, inward_x, float32),      FLOE_COLUMN(HitRow, inward_y, float32),
-    FLOE_COLUMN(HitRow, inward_z, float32),
+    FLOE_COLUMN(HitRow, inward_z, float32),      FLOE_COLUMN(HitRow, width_ns, float32),
 };
 constexpr std::array weight_columns = {
     FLOE_COLUMN(WeightRow, event, uint64),       FLOE_COLUMN(WeightRow, string, int32),
@@ -65,8 +65,14 @@ Hdf5Handle padded_text_type(std::size_t size) {
 
 hid_t number_in_memory(ColumnKind kind) {
   switch (kind) {
+    case ColumnKind::uint8:
+      return H5T_NATIVE_UINT8;
     case ColumnKind::int32:
       return H5T_NATIVE_INT32;
+    case ColumnKind::uint32:
+      return H5T_NATIVE_UINT32;
+    case ColumnKind::int64:
+      return H5T_NATIVE_INT64;
     case ColumnKind::uint64:
       return H5T_NATIVE_UINT64;
     case ColumnKind::float32:
@@ -78,8 +84,14 @@ hid_t number_in_memory(ColumnKind kind) {
 
 hid_t number_in_file(ColumnKind kind) {
   switch (kind) {
+    case ColumnKind::uint8:
+      return H5T_STD_U8LE;
     case ColumnKind::int32:
       return H5T_STD_I32LE;
+    case ColumnKind::uint32:
+      return H5T_STD_U32LE;
+    case ColumnKind::int64:
+      return H5T_STD_I64LE;
     case ColumnKind::uint64:
       return H5T_STD_U64LE;
     case ColumnKind::float32:
@@ -111,7 +123,10 @@ std::span<const Column> Table<FlasherRow>::columns() {
   return flasher_columns;
 }
 std::span<const Column> Table<HitRow>::columns() {
-  return hit_columns;
+  return std::span(all_hit_columns).first(all_hit_columns.size() - 1);
+}
+std::span<const Column> pulse_columns() {
+  return all_hit_columns;
 }
 
 Hdf5Handle row_type_in_memory(std::span<const Column> columns, std::size_t row_size) {
@@ -168,7 +183,7 @@ std::optional<FlasherRun> flasher_of(const FlasherRow& row) {
 HitRow row_of(const Hit& hit) {
   return {hit.module.string, hit.module.dom,    hit.time,          hit.charge,
           hit.wavelength,    hit.direction.x(), hit.direction.y(), hit.direction.z(),
-          hit.inward.x(),    hit.inward.y(),    hit.inward.z()};
+          hit.inward.x(),    hit.inward.y(),    hit.inward.z(),    hit.width};
 }
 
 Hit hit_of(const HitRow& row) {
@@ -177,7 +192,8 @@ Hit hit_of(const HitRow& row) {
           row.charge_pe,
           row.wavelength_nm,
           {row.direction_x, row.direction_y, row.direction_z},
-          {row.inward_x, row.inward_y, row.inward_z}};
+          {row.inward_x, row.inward_y, row.inward_z},
+          row.width_ns};
 }
 
 ParticleRow row_of(const Particle& particle) {

@@ -31,10 +31,11 @@ struct HitRow {
   double time_ns;
   float charge_pe, wavelength_nm;
   float direction_x, direction_y, direction_z, inward_x, inward_y, inward_z;
+  float width_ns = Hit::unknown;  // only of pulses
 };
 
 // Text is NUL-padded bytes (UTF-8), numbers little endian.
-enum class ColumnKind { text, int32, uint64, float32, float64 };
+enum class ColumnKind { text, uint8, int32, uint32, int64, uint64, float32, float64 };
 struct Column {
   const char* name;
   ColumnKind kind;
@@ -90,6 +91,9 @@ struct Table<HitRow> {
   static constexpr hsize_t rows_per_chunk = 16384;
   static std::span<const Column> columns();
 };
+
+// Of `hits` in files of pulses: one more than those of the table, the width.
+std::span<const Column> pulse_columns();
 
 // The compound type of a row in memory, and, packed and little endian, in the file.
 Hdf5Handle row_type_in_memory(std::span<const Column> columns, std::size_t row_size);

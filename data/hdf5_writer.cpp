@@ -8,7 +8,9 @@
 #include "data/base/error.h"
 #include "data/event_files.h"
 #include "data/hdf5_output.h"
+#include "data/hdf5_readout_schema.h"
 #include "data/hdf5_schema.h"
+#include "data/hdf5_table_writer.h"
 
 namespace floe {
 
@@ -30,48 +32,6 @@ void write_provenance(hid_t file, const Provenance& provenance) {
   write_attribute(file, "oversize", provenance.oversize);
 }
 
-// One table of the file, to which rows are appended; a chunk's worth of them is kept in memory.
-template <typename Row>
-class TableWriter {
- public:
-  explicit TableWriter(hid_t file) : row_type_(row_type_in_memory(Table<Row>::columns(), sizeof(Row))) {
-    const hsize_t none = 0, unlimited = H5S_UNLIMITED, chunk = Table<Row>::rows_per_chunk;
-    const Hdf5Handle space(H5Screate_simple(1, &none, &unlimited), H5Sclose, "describe a table");
-    const Hdf5Handle layout = compressed_layout({&chunk, 1});
-    table_ = Hdf5Handle(H5Dcreate2(file, Table<Row>::name, row_type_in_file(Table<Row>::columns()), space,
-                                   H5P_DEFAULT, layout, H5P_DEFAULT),
-                        H5Dclose, "create a table");
-    rows_.reserve(chunk);
-  }
-
-  void append(const Row& row) {
-    rows_.push_back(row);
-    if (rows_.size() == Table<Row>::rows_per_chunk) write_rows();
-  }
-  hsize_t size() const { return written_ + rows_.size(); }
-  void close() {
-    write_rows();
-    table_.close("close a table");
-  }
-
- private:
-  void write_rows() {
-    if (rows_.empty()) return;
-    const hsize_t count = rows_.size(), end = written_ + count;
-    checked(H5Dset_extent(table_, &end), "extend a table");
-    const Hdf5Handle in_file(H5Dget_space(table_), H5Sclose, "select rows");
-    checked(H5Sselect_hyperslab(in_file, H5S_SELECT_SET, &written_, nullptr, &count, nullptr), "select rows");
-    const Hdf5Handle in_memory(H5Screate_simple(1, &count, nullptr), H5Sclose, "select rows");
-    checked(H5Dwrite(table_, row_type_, in_memory, in_file, H5P_DEFAULT, rows_.data()), "write rows");
-    written_ = end;
-    rows_.clear();
-  }
-
-  Hdf5Handle row_type_, table_;
-  std::vector<Row> rows_;
-  hsize_t written_ = 0;
-};
-
 void expect_valid(const std::optional<Problem>& problem, const std::string& event) {
   if (problem)
     throw UsageError(fmt::format("event '{}' cannot be stored: found {}; expected {}", event, problem->found,
@@ -85,13 +45,17 @@ struct EventFileWriter::Impl {
   ~Impl() {
     const Hdf5Silence silence;  // what an unfinished file complains about is no news
     hits.reset(), particles.reset(), events.reset(), weights.reset(), flashers.reset();
+    readouts.reset(), unusable.reset();
+    photons.reset(), photoelectrons.reset(), waveforms.reset(), samples.reset();
     file = {};
   }
 
   void create(const Provenance& provenance) {
     file = create_file(target.temporary());
     write_provenance(file, provenance);
-    events.emplace(file), particles.emplace(file), hits.emplace(file);
+    events.emplace(file), particles.emplace(file);
+    hits.emplace(file, provenance.pulses ? pulse_columns() : Table<HitRow>::columns());
+    if (provenance.pulses) readouts.emplace(file), unusable.emplace(file);
     if (provenance.weighted) weights.emplace(file);
   }
 
@@ -109,6 +73,26 @@ struct EventFileWriter::Impl {
     current.reset();
   }
 
+  // Of the event begun last.
+  void add_readout(const Readout& readout) {
+    if (!readouts || !readout.modules)
+      throw std::logic_error("EventFileWriter: a readout in a file of photons");
+    if (modules && modules != readout.modules && *modules != *readout.modules)
+      throw UsageError(
+          fmt::format("{}: event '{}' was recorded by other modules than those before it; "
+                      "keep them in another file",
+                      path.string(), current_id));
+    modules = readout.modules;
+    readouts->append(row_of(events->size(), readout));
+    for (const UnusableTimes& times : readout.unusable) unusable->append(row_of(events->size(), times));
+  }
+  void write_modules() {
+    TableWriter<ModuleRow> table(file);
+    if (modules)
+      for (const RecordingModule& module : *modules) table.append(row_of(module));
+    table.close();
+  }
+
   std::filesystem::path path;
   AtomicFile target;
   Hdf5Handle file;
@@ -117,8 +101,15 @@ struct EventFileWriter::Impl {
   std::optional<TableWriter<HitRow>> hits;
   std::optional<TableWriter<WeightRow>> weights;    // only in weighted simulations
   std::optional<TableWriter<FlasherRow>> flashers;  // only after an event that is a flasher run
-  ModuleWeights module_weights;                     // of the event begun last
-  std::optional<EventRow> current;                  // the event begun last
+  std::optional<TableWriter<ReadoutRow>> readouts;  // only in files of pulses, as the next
+  std::optional<TableWriter<UnusableRow>> unusable;
+  std::shared_ptr<const RecordingModules> modules;
+  std::optional<TableWriter<PhotonRow>> photons;  // only when they were appended, as the rest
+  std::optional<TableWriter<PhotoelectronRow>> photoelectrons;
+  std::optional<TableWriter<WaveformRow>> waveforms;
+  std::optional<TableWriter<SampleRow>> samples;
+  ModuleWeights module_weights;     // of the event begun last
+  std::optional<EventRow> current;  // the event begun last
   std::optional<FlasherRun> current_flasher;
   std::string current_id;
   std::unordered_set<std::string> ids;
@@ -151,6 +142,37 @@ void EventFileWriter::begin_event(const std::string& id, const std::vector<Parti
   });
 }
 
+void EventFileWriter::begin_event(const Event& event) {
+  begin_event(event.id, event.truth, event.repeats, event.flasher);
+  guarded(impl_->path, [&] {
+    if (event.readout) impl_->add_readout(*event.readout);
+  });
+}
+
+void EventFileWriter::append_photons(std::span<const Hit> photons) {
+  guarded(impl_->path, [&] {
+    if (!impl_->photons) impl_->photons.emplace(impl_->file);
+    for (const Hit& photon : photons) impl_->photons->append({impl_->events->size(), row_of(photon)});
+  });
+}
+
+void EventFileWriter::append_photoelectrons(std::span<const ModulePhotoelectron> photoelectrons) {
+  guarded(impl_->path, [&] {
+    if (!impl_->photoelectrons) impl_->photoelectrons.emplace(impl_->file);
+    for (const auto& pe : photoelectrons) impl_->photoelectrons->append(row_of(impl_->events->size(), pe));
+  });
+}
+
+void EventFileWriter::append_waveforms(std::span<const ModuleWaveform> waveforms) {
+  guarded(impl_->path, [&] {
+    if (!impl_->waveforms) impl_->waveforms.emplace(impl_->file), impl_->samples.emplace(impl_->file);
+    for (const ModuleWaveform& waveform : waveforms) {
+      impl_->waveforms->append(row_of(impl_->events->size(), waveform, impl_->samples->size()));
+      for (const int counts : waveform.counts) impl_->samples->append({counts});
+    }
+  });
+}
+
 void EventFileWriter::append(std::span<const Hit> hits) {
   if (!impl_->current) throw std::logic_error("EventFileWriter::append without begin_event");
   for (const Hit& hit : hits) expect_valid(problem_of(hit), impl_->current_id);
@@ -167,6 +189,10 @@ void EventFileWriter::close() {
     impl_->hits->close(), impl_->particles->close(), impl_->events->close();
     if (impl_->weights) impl_->weights->close();
     if (impl_->flashers) impl_->flashers->close();
+    if (impl_->readouts) impl_->write_modules(), impl_->readouts->close(), impl_->unusable->close();
+    if (impl_->photons) impl_->photons->close();
+    if (impl_->photoelectrons) impl_->photoelectrons->close();
+    if (impl_->waveforms) impl_->waveforms->close(), impl_->samples->close();
     impl_->file.close("close the file");
   });
   impl_->target.commit();

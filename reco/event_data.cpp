@@ -9,6 +9,7 @@
 
 #include "data/base/error.h"
 #include "reco/likelihood/bayesian_blocks.h"
+#include "response/afterpulses.h"
 
 namespace floe {
 namespace {
@@ -47,9 +48,11 @@ bool is_left_out(std::span<const TimeWindow> windows, ModuleId module, double ti
 
 }  // namespace
 
-EventData::EventData(const Detector& detector, const Event& event, const DataSelection& selection)
-    : detector_(&detector), selection_(selection), id_(event.id), repeats_(event.repeats) {
-  check(selection);
+EventData::EventData(const Detector& detector, const Event& event, const DataSelection& asked)
+    : detector_(&detector), selection_(asked), id_(event.id), repeats_(event.repeats) {
+  check(asked);
+  if (event.readout) learn_from(*event.readout);
+  const DataSelection& selection = selection_;
   if (!(std::isfinite(repeats_) && repeats_ > 0))
     throw InputError({"event " + id_, 0}, "an average over " + std::to_string(repeats_) + " repetitions",
                      "a number of repetitions above 0");
@@ -67,7 +70,10 @@ EventData::EventData(const Detector& detector, const Event& event, const DataSel
   for (const Hit& hit : event.hits) {
     check(hit, id_);
     const std::size_t index = detector.index_of(hit.module);
-    if (!used[index] || hit.charge == 0 || is_left_out(selection.left_out, hit.module, hit.time)) continue;
+    if (!used[index] || hit.charge == 0) continue;
+    if (afterpulses_.share > 0)
+      modules[index].afterpulse_sources.emplace_back(hit.time, hit.charge * repeats_);
+    if (is_left_out(selection.left_out, hit.module, hit.time)) continue;
     modules[index].times.push_back(hit.time);
     modules[index].charges.push_back(hit.charge * repeats_);
     first_ = std::min(first_, hit.time);
@@ -94,6 +100,28 @@ EventData::EventData(const Detector& detector, const Event& event, const DataSel
   }
 }
 
+// Modules that were off, times that cannot be used, and dark noise unless the user says how much there is.
+void EventData::learn_from(const Readout& readout) {
+  const bool noise_asked = selection_.noise_rate > 0 || !selection_.noise_of.empty();
+  for (const RecordingModule& module : *readout.modules) {
+    if (!module.on) selection_.bad.push_back(module.id);
+    if (!noise_asked) selection_.noise_of[module.id] = module.noise_rate;
+  }
+  for (const UnusableTimes& times : readout.unusable)
+    selection_.left_out.push_back({times.module, times.begin, times.end});
+  afterpulses_ = readout.afterpulses;
+}
+
+// Afterpulses of one event that follow the module's charge between two times, on average.
+double EventData::afterpulses_between(const ModuleData& data, double low, double high) const {
+  if (afterpulses_.share <= 0) return 0;
+  double sum = 0;
+  for (const auto& [time, charge] : data.afterpulse_sources)
+    sum +=
+        charge * (afterpulses_until(afterpulses_, high - time) - afterpulses_until(afterpulses_, low - time));
+  return afterpulses_.share * sum / repeats_;
+}
+
 void EventData::cut_into_bins(ModuleData& data, std::vector<double> edges) const {
   if (data.saturated) edges.clear();
   const ModuleId id = detector_->modules()[data.module].id;
@@ -117,7 +145,8 @@ void EventData::cut_into_bins(ModuleData& data, std::vector<double> edges) const
   for (std::size_t b = 0; b < bins; ++b) {
     const double low = b == 0 ? begin() : std::max(begin(), data.edges[b - 1]);
     const double high = b + 1 == bins ? end() : std::min(end(), data.edges[b]);
-    data.noise[b] = selection_.noise(id) * 1e-9 * std::max(0.0, high - low);
+    data.noise[b] =
+        high > low ? selection_.noise(id) * 1e-9 * (high - low) + afterpulses_between(data, low, high) : 0;
     // Edges of windows are edges of bins: a bin lies inside or outside.
     const double inside = data.edges.empty() ? 0
                           : b == 0           ? data.edges[0] - 1

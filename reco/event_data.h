@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "data/event.h"
@@ -21,8 +22,10 @@ struct ModuleData {
   bool saturated = false;
   std::vector<double> edges;   // inner edges of the time bins [ns], rising; see block_edges
   std::vector<double> counts;  // charge in each bin: edges.size() + 1 numbers
-  std::vector<double> noise;   // expected dark counts of one event in each bin
+  std::vector<double> noise;   // expected dark counts and afterpulses of one event in each bin
   std::vector<bool> left_out;  // bins that are not used; their counts are 0
+  // What afterpulses follow: all of its pulses, at times that are used or not; times [ns] and charges.
+  std::vector<std::pair<double, double>> afterpulse_sources;
 };
 
 // The hits of one event sorted by module and cut into bins: Bayesian blocks over 25 ns cells where there
@@ -31,6 +34,8 @@ class EventData {
  public:
   // Throws InputError for a module that the detector does not have, for times that are not finite and
   // for charges that are negative or not finite. Hits of charge 0 and of switched-off modules are ignored.
+  // An event with a readout knows which modules were off, which times cannot be used, its dark noise (where
+  // `selection` names none) and its afterpulses, which are taken to follow what was seen.
   // `selection`: see there; throws UsageError when it makes no sense.
   EventData(const Detector& detector, const Event& event, const DataSelection& selection = {});
 
@@ -64,10 +69,13 @@ class EventData {
       std::size_t n) const;  // places in lit(), by falling charge, without empty ones
 
  private:
+  void learn_from(const Readout& readout);
+  double afterpulses_between(const ModuleData& data, double low, double high) const;
   void cut_into_bins(ModuleData& data, std::vector<double> edges) const;
 
   const Detector* detector_;
-  DataSelection selection_;
+  DataSelection selection_;  // with what the event's readout says
+  ExpectedAfterpulses afterpulses_;
   std::string id_;
   double repeats_ = 1, charge_ = 0, first_ = 0, last_ = 0;
   std::vector<ModuleData> lit_;

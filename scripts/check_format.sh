@@ -8,7 +8,7 @@ if ! command -v clang-format >/dev/null; then
   echo "clang-format is not installed: the layout of the code is not checked."
   exit 0
 fi
-mapfile -t files < <(find data geometry propagation reco apps tests bench -name '*.h' -o -name '*.cpp' -o -name '*.js')
+mapfile -t files < <(find data geometry propagation response reco apps tests bench -name '*.h' -o -name '*.cpp' -o -name '*.js')
 if clang-format --dry-run --Werror "${files[@]}"; then exit 0; fi
 if clang-format --version | grep -qE 'version 14\.'; then
   echo "Put it right with: clang-format -i FILE" >&2

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Rooms depend one way: data <- geometry <- propagation <- reco <- apps. Fails, naming file and line,
+# Rooms depend one way: data <- geometry <- propagation <- response <- reco <- apps. Fails, naming file and line,
 # when a file includes from a room after its own.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-rooms=(data geometry propagation reco apps)
+rooms=(data geometry propagation response reco apps)
 status=0
 for ((i = 0; i < ${#rooms[@]}; ++i)); do
   for ((j = i + 1; j < ${#rooms[@]}; ++j)); do

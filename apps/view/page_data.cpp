@@ -108,9 +108,9 @@ Json json_of(const Waveform& waveform, std::size_t module) {
   for (const int count : waveform.counts)
     millivolts.push_back(short_number((count - waveform.baseline) * waveform.millivolt_per_count, 4));
   return {{"module", module},
-          {"digitiser", waveform.digitiser},
+          {"digitiser", digitiser_names[static_cast<std::size_t>(waveform.digitiser)]},
           {"time", in_hundredths(waveform.time)},
-          {"sample", waveform.sample},
+          {"sample", waveform.step},
           {"millivolts", millivolts}};
 }
 
@@ -119,7 +119,7 @@ Json waveforms_of(const EventToShow& shown, const LightCurves& curves, const Det
   std::vector<double> charge(detector.size(), 0);
   for (const LightCurve& curve : curves.modules) charge[curve.module] = curve.charge;
   std::vector<std::pair<std::size_t, const Waveform*>> traces;
-  for (const Waveform& waveform : shown.waveforms)
+  for (const ModuleWaveform& waveform : shown.waveforms)
     if (const auto module = detector.find(waveform.module)) traces.emplace_back(*module, &waveform);
   std::stable_sort(traces.begin(), traces.end(),
                    [&](const auto& a, const auto& b) { return charge[a.first] > charge[b.first]; });

@@ -8,7 +8,7 @@
 #include "apps/planned_output.h"
 #include "apps/view/fit_results.h"
 #include "apps/view/light_curves.h"
-#include "data/waveforms.h"
+#include "data/readout.h"
 #include "propagation/ice/ice_model.h"
 
 namespace floe {
@@ -17,7 +17,7 @@ struct EventToShow {
   std::string file;  // from which it was read
   Event event;
   std::string source;  // the file's record of its source of light, JSON; empty when there is none
-  std::vector<Waveform> waveforms;
+  std::vector<ModuleWaveform> waveforms;  // of the first repetition
   std::optional<FitResults> fit;
 };
 

@@ -48,6 +48,7 @@ class Trials {
     const std::vector<Suspect> suspects = suspects_of(survey, plan);
     const ScoreTester tester(survey, suspects, plan.parameters, options_.draws, options_.seed);
 
+    result_.power = power(tester);
     const std::vector<HiddenEffect> hidden = draw_hidden(tester);
     for (std::size_t t = 0; t < hidden.size(); ++t) {
       if (progress_)
@@ -72,6 +73,41 @@ class Trials {
       events.push_back(std::move(event));
     }
     return flasher_data(*base_.detector, events);
+  }
+
+  // What changes with the suspect's amplitudes: all parameters but the place of a band.
+  std::vector<IceParameter> changing_parameters(const Suspect& suspect) const {
+    const auto none = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(suspect.amplitudes.size()));
+    std::vector<IceParameter> parameters = fit_parameters(suspect, none, base_);
+    std::erase_if(parameters, is_place_of_band);
+    return parameters;
+  }
+
+  std::vector<SeenAbove> power(const ScoreTester& tester) const {
+    std::map<std::string, std::vector<double>> changes;
+    std::vector<SeenAbove> all;
+    for (const TestedSuspect& tested : tester.suspects()) {
+      const Suspect& suspect = *tested.suspect;
+      const double gain = tester.gain_to_be_named(suspect.effect, options_.alpha);
+      const std::vector<IceParameter> parameters = changing_parameters(suspect);
+      for (std::size_t i = 0; i < parameters.size(); ++i) {
+        const auto index = static_cast<Eigen::Index>(i);
+        const double of_one = tested.expected_gain(Eigen::VectorXd::Unit(tested.low.size(), index));
+        if (!(of_one > 0)) continue;
+        std::vector<double>& of_parameter = changes[parameters[i].name];
+        if (of_parameter.empty()) all.push_back({suspect.effect, parameters[i].name, parameters[i].unit, 0});
+        of_parameter.push_back(std::sqrt(gain / of_one));
+      }
+    }
+    for (SeenAbove& seen : all) {
+      std::vector<double>& values = changes.at(seen.parameter);
+      std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                       values.end());
+      seen.change = values[values.size() / 2];
+      // Amplitudes of bands are logarithms of their factors.
+      if (seen.effect.ends_with("-layer")) seen.change = std::expm1(seen.change);
+    }
+    return all;
   }
 
   // Of each effect some, at places drawn at random, as strong as wanted and as its parameters allow.
@@ -150,24 +186,38 @@ class Trials {
                    const ScoreTester& tester) const {
     SurveyCounts counts = measured_counts(survey);
     for (std::size_t r = 0; r < survey.runs.size(); ++r) {
-      const SimulatedRun light = simulate_run(
-          model,
-          request_of(survey.runs[r].data.run, options_, trial_stream + number * survey.runs.size() + r));
+      const RunData& data = survey.runs[r].data;
+      RunRequest request = request_of(data.run, options_, trial_stream + number * survey.runs.size() + r);
+      request.noise = noise_window(data, request.photons);
+      const SimulatedRun light = simulate_run(model, request);
       counts[r].data.setZero();
       for (const SimulatedHit& hit : light.hits)
         if (const int bin = survey.runs[r].bins.bin(hit.module, hit.time); bin >= 0) counts[r].data(bin) += 1;
     }
     const ScoreTest test = tester.test(counts, options_.floor);
-    BlindTrial trial{.hidden = hidden, .p_value = test.p_value, .named = {}, .named_text = {}, .group = {}};
+    BlindTrial trial;
+    trial.hidden = hidden;
+    trial.p_value = test.p_value;
     if (test.effects.empty() || test.p_value >= options_.alpha) return trial;
     const EffectScore& first = test.effects.front();
     trial.named = first.best.suspect.effect;
     trial.named_text = text_of(first.best.suspect);
     trial.significance = sigmas_of(first.ln_p);
+    if (trial.named_text == hidden.text && !first.best.suspect.place.count("depth"))
+      tell_values(first.best, trial);
     for (const EffectScore& effect : test.effects)
       if (&effect == &first || effect.likeness > inseparable)
         trial.group.push_back(effect.best.suspect.effect);
     return trial;
+  }
+
+  void tell_values(const Score& score, BlindTrial& trial) const {
+    const std::vector<IceParameter> parameters = changing_parameters(score.suspect);
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      const auto index = static_cast<Eigen::Index>(i);
+      trial.found.push_back(null_number(parameters[i], base_) + score.amplitudes(index));
+      trial.errors.push_back(score.errors(index));
+    }
   }
 
   const Model& base_;

@@ -40,12 +40,22 @@ struct BlindTrial {
   std::string named, named_text;   // the first in the ranking; empty when nothing was named
   std::vector<std::string> group;  // that the data cannot tell from it, itself first
   double significance = 0;         // of what was named
+  // Of effects that were named at their place, beside HiddenEffect::values; none of bands, whose depth and
+  // width are told by a fit.
+  std::vector<double> found, errors;
 
   bool right() const;
 };
 
+// The least value of a parameter that would be named every other time.
+struct SeenAbove {
+  std::string effect, parameter, unit;
+  double change = 0;  // from the base's own value; the median of all places
+};
+
 struct BlindTrials {
   std::vector<BlindTrial> trials;
+  std::vector<SeenAbove> power;
   std::map<std::string, std::string> not_tried;  // effects that no light of these runs shows, and why
   double seconds = 0;
 };

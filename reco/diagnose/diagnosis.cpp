@@ -15,7 +15,11 @@ namespace floe {
 
 namespace {
 
-constexpr std::uint64_t look_stream = std::uint64_t{1} << 44, judge_stream = std::uint64_t{1} << 45;
+constexpr std::uint64_t look_stream = std::uint64_t{1} << 44, judge_stream = std::uint64_t{1} << 45,
+                        gap_stream = judge_stream + (std::uint64_t{1} << 40);
+// Light of the gap's measurement, in units of that of fits: twice ln L of two simulations differs by tens
+// where they have hardly more light than the data.
+constexpr double light_of_gap = 5;
 constexpr double leading_share = 0.35;  // of the best gain: suspects that are fitted, too
 constexpr std::size_t most_trials = 3;
 constexpr double hits_of_contest = 6e4;  // of each run, at least: rivals are alike
@@ -354,8 +358,12 @@ class Diagnoser {
   // Each run judged by a model that was fitted to other runs.
   void finish(bool unexplained) {
     result_.improved = current();
+    RunSettings settings = options_;
+    settings.light.light *= light_of_gap;
+    settings.light.least_hits *= light_of_gap;
+    const ModelJudge judge(base_, data_, look_, settings, gap_stream);
     const auto gap = [&](const Model& model, std::size_t r) {
-      const ModelJudge::Fit fit = judge_->judge(model, r);
+      const ModelJudge::Fit fit = judge.judge(model, r);
       return 2 * (fit.measured.neg_llh - fit.expected);
     };
     for (std::size_t r = 0; r < data_.runs.size(); ++r) {

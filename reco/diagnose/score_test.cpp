@@ -95,7 +95,8 @@ std::vector<TestedSuspect> prepare(const Survey& survey, const std::vector<Suspe
     const MatrixXd directions = known_directions(t.information, light);
     if (directions.cols() == 0) continue;  // no light would show it
     t.inverse_information = inverse(t.information, directions);
-    t.inverse_noise = inverse(combined(suspect, suspect, survey.noise), directions);
+    t.noise = combined(suspect, suspect, survey.noise);
+    t.inverse_noise = inverse(t.noise, directions);
     limit(suspect, parameters, survey, t);
     tested.push_back(std::move(t));
   }
@@ -119,6 +120,9 @@ double likeness(const Score& a, const TestedSuspect& of_a, const TestedSuspect& 
 
 VectorXd TestedSuspect::amplitudes(const VectorXd& columns) const {
   return inverse_information * combined(*suspect, columns);
+}
+VectorXd TestedSuspect::errors() const {
+  return (inverse_information * noise * inverse_information).diagonal().cwiseMax(0).cwiseSqrt();
 }
 double TestedSuspect::size(const VectorXd& at) const {
   return std::sqrt(std::max(0.0, at.dot(information * at)) / light);
@@ -159,6 +163,10 @@ ScoreTester::ScoreTester(const Survey& survey, const std::vector<Suspect>& suspe
   ln_number_of_all_ = ln_number(least);
 }
 
+double ScoreTester::gain_to_be_named(const std::string& effect, double alpha) const {
+  return ln_number_.at(effect) + ln_number_of_all_ - std::log(alpha);
+}
+
 ScoreTest ScoreTester::test(const SurveyCounts& counts, double floor) const {
   const VectorXd gap = gap_of(survey_, counts);
   // By effect, the suspect that gains the most.
@@ -172,7 +180,7 @@ ScoreTest ScoreTester::test(const SurveyCounts& counts, double floor) const {
   ScoreTest result;
   for (const auto& [effect, t] : best) {
     EffectScore score;
-    score.best = {*t->suspect, gain[effect], t->amplitudes(gap), 0};
+    score.best = {*t->suspect, gain[effect], t->amplitudes(gap), t->errors(), 0};
     score.best.size = t->size(score.best.amplitudes);
     score.ln_p = ln_probability(gain[effect], ln_number_.at(effect));
     result.effects.push_back(std::move(score));

@@ -18,8 +18,9 @@ constexpr double inseparable = 0.9;
 
 struct Score {
   Suspect suspect;
-  double gain = 0;             // expected of -ln L, by the best amplitudes
-  Eigen::VectorXd amplitudes;  // the best, to first order
+  double gain = 0;              // expected of -ln L, by the best amplitudes
+  Eigen::VectorXd amplitudes;   // the best, to first order
+  Eigen::VectorXd errors = {};  // of the amplitudes
   // Light's root mean square relative change at these amplitudes, weighted by counts.
   double size = 0;
 };
@@ -42,12 +43,13 @@ struct ScoreTest {
 // A suspect with what its test needs.
 struct TestedSuspect {
   const Suspect* suspect;
-  Eigen::MatrixXd information, inverse_information, inverse_noise;
+  Eigen::MatrixXd information, noise, inverse_information, inverse_noise;
   Eigen::VectorXd low, high;  // limits of the amplitudes
   double light;               // counts of all bins
 
   // By the gaps of all columns (gap_of).
   Eigen::VectorXd amplitudes(const Eigen::VectorXd& columns) const;
+  Eigen::VectorXd errors() const;  // of the amplitudes
   double size(const Eigen::VectorXd& amplitudes) const;
   double gain(const Eigen::VectorXd& columns, double floor) const;
   // How much of what its slopes should tell they do tell; below 1 by the noise of the simulation and of the
@@ -68,6 +70,8 @@ class ScoreTester {
   // their gain is 0.
   ScoreTest test(const SurveyCounts& counts, double floor) const;
   const std::vector<TestedSuspect>& suspects() const { return tested_; }
+  // Gain at which an effect is named with this probability for everything tried.
+  double gain_to_be_named(const std::string& effect, double alpha) const;
 
  private:
   const Survey& survey_;

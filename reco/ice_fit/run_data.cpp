@@ -19,6 +19,14 @@ constexpr double plenty = 30;
 // either.
 constexpr double hardly_any = 0.02;
 
+// Modules that were off in the record, and those that could not follow the light.
+void leave_out_recorded_badly(const Detector& detector, const Readout& readout, std::vector<char>& used) {
+  for (const RecordingModule& module : *readout.modules)
+    if (!module.on) used[detector.index_of(module.id)] = 0;
+  for (const UnusableTimes& times : readout.unusable)
+    if (times.reason == UnusableTimes::Reason::saturated) used[detector.index_of(times.module)] = 0;
+}
+
 RunData run_data(const Detector& detector, const Event& event) {
   RunData data;
   data.name = event.id;
@@ -28,6 +36,7 @@ RunData run_data(const Detector& detector, const Event& event) {
   for (std::size_t i = 0; i < detector.size(); ++i)
     if (!detector.modules()[i].on) data.used[i] = 0;
   data.used[detector.index_of(data.run.module)] = 0;  // it does not see its own light
+  if (event.readout) leave_out_recorded_badly(detector, *event.readout, data.used);
   for (const Hit& hit : event.hits) {
     const auto module = static_cast<std::uint32_t>(detector.index_of(hit.module));
     if (!data.used[module]) continue;

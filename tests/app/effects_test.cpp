@@ -1,6 +1,8 @@
 // floe effects, and --with wherever a model is named.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 #include "data/event_files.h"
@@ -108,6 +110,27 @@ TEST(With, ChangesFlashers) {
     EXPECT_EQ(plain[i].module, with[i].module);
     EXPECT_NEAR(with[i].time - plain[i].time, 64, 0.01);
   }
+}
+
+// 1e5 hits a second in 5 microseconds of all modules but the flasher, beside the same light; once in all
+// parts.
+TEST(With, AddsNoise) {
+  const TemporaryFolder folder;
+  const std::string flasher = "simulate --flasher 63,20 --photons 1e6 ";
+  ASSERT_EQ(run_floe(folder.path(), flasher + "-o quiet.h5").code, 0);
+  ASSERT_EQ(run_floe(folder.path(), flasher + "--with noise.rate=1e5 -o noisy.h5").code, 0);
+  for (const std::string part : {"1", "2"})
+    ASSERT_EQ(run_floe(folder.path(),
+                       flasher + "--with noise.rate=1e5 --shard " + part + "/2 -o part" + part + ".h5")
+                  .code,
+              0);
+  ASSERT_EQ(run_floe(folder.path(), "merge part1.h5 part2.h5 -o parts.h5").code, 0);
+  const auto hits = [&](const char* file) { return read_event_file(folder.path() / file).events.at(0).hits; };
+  const double expected = 1e5 * 5e-6 * 5159;
+  const auto noisy = hits("noisy.h5");
+  EXPECT_NEAR(static_cast<double>(noisy.size() - hits("quiet.h5").size()), expected, 4 * std::sqrt(expected));
+  EXPECT_EQ(hits("parts.h5").size(), noisy.size());
+  EXPECT_TRUE(std::isnan(noisy.back().wavelength));
 }
 
 TEST(With, SimulatesTheSameAsWithoutWhereItIsTheSame) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -62,6 +63,40 @@ TEST(EventData, SaysWhenLightIsNotEnough) {
       NoResult);
   EXPECT_NO_THROW(EventData(detector, {"e", {hit(1, 0, 9), hit(2, 0), hit(3, 0), hit(4, 0)}, {}, 1})
                       .require_enough_light());
+}
+
+// Modules that were off, dark noise, times that cannot be used and afterpulses are those of the record.
+TEST(EventData, LearnsFromTheReadout) {
+  const Detector detector = small_detector();
+  Event event{"e", {hit(1, 0), hit(2, 0, 100), hit(2, 5000), hit(3, 50), hit(3, 950, 40)}, {}, 1};
+  RecordingModules modules;
+  for (int dom = 1; dom <= 6; ++dom) modules.push_back({{1, dom}, dom != 1, dom * 1e3});
+  event.readout = Readout{-4000,
+                          6000,
+                          {0.06, 300, 11000},
+                          {{{1, 3}, 900, 1000, UnusableTimes::Reason::dead}},
+                          std::make_shared<const RecordingModules>(modules)};
+  const EventData data(detector, event);
+  ASSERT_EQ(data.lit().size(), 2u);
+  EXPECT_EQ(data.dark(), (std::vector<std::uint32_t>{3, 4}));  // the first was off
+  const double window = (data.end() - data.begin()) * 1e-9;
+  EXPECT_NEAR(data.dark_noise(3), 4e3 * window, 1e-12);
+  EXPECT_EQ(data.lit()[1].charge, 1);  // what came while the module was dead is left out
+  double noise = 0;
+  for (const double n : data.lit()[0].noise) noise += n;
+  // From 300 ns after 100 photoelectrons until 5200 ns; those of the last come later.
+  const double afterpulses = 0.06 * 100 * std::log(5200.0 / 300) / std::log(11000.0 / 300);
+  EXPECT_NEAR(noise, 2e3 * window + afterpulses, 1e-6);
+  noise = 0;
+  for (const double n : data.lit()[1].noise) noise += n;
+  // What could not be used has afterpulses, too.
+  const double of_dead = 0.06 * 40 * std::log((5200.0 - 950) / 300) / std::log(11000.0 / 300);
+  const double of_used = 0.06 * std::log((5200.0 - 50) / 300) / std::log(11000.0 / 300);
+  EXPECT_NEAR(noise, 3e3 * window + of_dead + of_used, 1e-6);
+
+  DataSelection asked;
+  asked.noise_rate = 500;  // what the user names counts
+  EXPECT_NEAR(EventData(detector, event, asked).dark_noise(3), 500 * window, 1e-12);
 }
 
 }  // namespace

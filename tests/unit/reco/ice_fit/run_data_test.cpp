@@ -49,6 +49,18 @@ std::vector<std::string> names(const FlasherData& data) {
   return result;
 }
 
+// What the electronics could not follow, or was off in the record, is left out; gaps of single flashes are
+// not.
+TEST(FlasherData, LeavesOutWhatTheRecordCannotTell) {
+  std::vector<Event> events{run_of("a", {7, 0.5, 2, 3, 1})};
+  RecordingModules modules;
+  for (int string = 1; string <= 5; ++string) modules.push_back({{string, 1}, string != 2, 0});
+  events[0].readout = Readout{-4000, 6000, {}, {}, std::make_shared<const RecordingModules>(modules)};
+  events[0].readout->unusable = {{{3, 1}, 90, 110, UnusableTimes::Reason::saturated},
+                                 {{5, 1}, 500, 900, UnusableTimes::Reason::dead}};
+  EXPECT_EQ(flasher_data(five_modules(), events).runs.at(0).used, (std::vector<char>{0, 0, 0, 0, 1}));
+}
+
 TEST(FlasherData, IsTheChargeOfAllFlashesOnModulesThatCount) {
   const std::vector<Event> events{run_of("a", {7, 0.5, 2, 3, 1})};
   const FlasherData data = flasher_data(five_modules(), events);

@@ -1,0 +1,35 @@
+#include "response/transit_time.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "response/draws.h"
+
+namespace floe {
+
+double TransitTime::peak_mean() const {
+  return std::sqrt(2 / std::numbers::pi) * (settings_.fall - settings_.rise);
+}
+
+double TransitTime::peak_density(double time) const {
+  const double from_mode = time + peak_mean();
+  const double z = from_mode / (from_mode < 0 ? settings_.rise : settings_.fall);
+  return std::sqrt(2 / std::numbers::pi) / (settings_.rise + settings_.fall) * std::exp(-0.5 * z * z);
+}
+
+TransitTime::Arrival TransitTime::draw(RandomStream& stream) const {
+  const auto& s = settings_;
+  double kind = stream.uniform();
+  const auto is = [&kind](double share) { return (kind -= share) < 0; };
+  if (is(s.prepulse_share)) return {s.prepulse_time, s.prepulse_charge, PhotoelectronOrigin::prepulse};
+  const auto late = [](double delay) { return Arrival{delay, 1, PhotoelectronOrigin::late}; };
+  if (is(s.shoulder_share))
+    return late(s.shoulder_begin + (s.shoulder_end - s.shoulder_begin) * stream.uniform());
+  if (is(s.late_peak_share)) return late(s.late_peak_time + s.late_peak_width * draw_gaussian(stream));
+  if (is(s.tail_share)) return late(s.tail_begin + (s.tail_end - s.tail_begin) * stream.uniform());
+  const bool early = stream.uniform() * (s.rise + s.fall) < s.rise;
+  const double distance = std::abs(draw_gaussian(stream));
+  return {(early ? -s.rise : s.fall) * distance - peak_mean(), 1, PhotoelectronOrigin::photon};
+}
+
+}  // namespace floe
