@@ -15,6 +15,7 @@
 #include "data/base/atomic_file.h"
 #include "data/base/error.h"
 #include "reco/crystal/pattern_file.h"
+#include "reco/crystal/pattern_merge.h"
 #include "reco/crystal/pattern_picture.h"
 
 namespace floe {
@@ -28,6 +29,7 @@ struct CrystalCommand {
   std::string elongations = "1.4", grain = "1mm", estimator = "all";
   std::vector<std::string> fabrics{"0.1,4"};
   std::optional<std::string> axes, angles, output, picture;
+  std::vector<std::string> merge;
   double wavelength = 405;
   bool scaling = false;
   PatternGrid grid;
@@ -76,47 +78,52 @@ PatternGrid grid_of(const CrystalCommand& command) {
   return grid;
 }
 
+// Of all shares together, still without fits. The command's settings become those of the shares.
+std::vector<CrystalStudy> merge_shares(CrystalCommand& command) {
+  std::vector<PatternFile> shares;
+  for (const std::string& file : command.merge) shares.push_back(read_patterns(file));
+  command.wavelength = shares.front().provenance.wavelength;
+  command.run.seed = shares.front().studies.front().grid.seed;
+  return merged_patterns(std::move(shares));
+}
+
 // One study of each fabric with each shape, still without patterns.
-struct Planned {
-  std::string name, fabric;
-  PatternGrid grid;
-};
-std::vector<Planned> plan(const CrystalCommand& command) {
-  std::vector<Planned> planned;
+std::vector<CrystalStudy> plan(const CrystalCommand& command) {
+  std::vector<CrystalStudy> planned;
   PatternGrid grid = grid_of(command);
   for (const std::string& fabric : command.fabrics) {
     grid.crystal.fabric = parse_fabric("--fabric", fabric);
     for (const NamedShape& shape : shapes_of(command)) {
       grid.crystal.grains = shape.shape;
-      planned.push_back({fmt::format("{}, fabric {}", shape.name, fabric), fabric, grid});
+      planned.push_back({fmt::format("{}, fabric {}", shape.name, fabric), fabric, grid, {}, {}, {}, {}});
     }
   }
   return planned;
 }
 
-void check_usage(const CrystalCommand& command, const std::vector<Planned>& planned) {
+void check_usage(const CrystalCommand& command, const std::vector<CrystalStudy>& planned) {
   if (command.picture && !command.picture->ends_with(".svg"))
     throw UsageError(
         fmt::format("--picture: found \"{}\"; expected a name that ends in .svg", *command.picture));
   const char* of_one = command.picture ? "--picture" : command.ice.folder ? "--into" : nullptr;
   if (of_one && planned.size() > 1)
-    throw UsageError(
-        fmt::format("{} is of one kind of ice; --elongation and --fabric name {}", of_one, planned.size()));
+    throw UsageError(fmt::format("{} is of one kind of ice; found {} of them", of_one, planned.size()));
   if (command.ice.folder && planned.front().grid.angles.size() < 5)
     throw UsageError(fmt::format("--into needs 5 --angles or more to fit the 12 numbers to; found {}",
                                  planned.front().grid.angles.size()));
 }
 
-std::vector<CrystalStudy> study_all(const CrystalCommand& command, const std::vector<Planned>& planned) {
+std::vector<CrystalStudy> study_all(const CrystalCommand& command, const std::vector<CrystalStudy>& planned) {
   ProgressBar bar(command.printed.quiet);
   const Progress progress = bar.callback();
   std::vector<CrystalStudy> studies;
-  for (const auto& [name, fabric, grid] : planned) {
-    const auto share = [&, &name = name](double fraction, const std::string&) {
-      progress((static_cast<double>(studies.size()) + fraction) / static_cast<double>(planned.size()), name);
+  for (const CrystalStudy& plan : planned) {
+    const auto share = [&](double fraction, const std::string&) {
+      progress((static_cast<double>(studies.size()) + fraction) / static_cast<double>(planned.size()),
+               plan.name);
     };
-    studies.push_back(
-        study_crystal(name, fabric, grid, command.scaling, progress ? Progress(share) : Progress()));
+    studies.push_back(study_crystal(plan.name, plan.fabric, plan.grid, command.scaling,
+                                    progress ? Progress(share) : Progress()));
   }
   return studies;
 }
@@ -139,17 +146,18 @@ void print(const CrystalCommand& command, const std::vector<CrystalStudy>& studi
   if (command.ice.folder) fmt::print("The new ice model is {}\n", *command.ice.folder);
 }
 
-void run_crystal(const CrystalCommand& command) {
+void run_crystal(CrystalCommand& command) {
   const PatternEstimator estimator = estimator_of(command);
-  const std::vector<Planned> planned = plan(command);
-  check_usage(command, planned);
+  const bool merging = !command.merge.empty();
+  std::vector<CrystalStudy> studies = merging ? merge_shares(command) : plan(command);
+  check_usage(command, studies);
   std::optional<AtomicFile> patterns;
   if (command.output) patterns.emplace(*command.output);
   PlannedOutput json(command.printed.json), picture(command.picture);
   std::optional<CrystalIceWriter> ice;
   if (command.ice.folder) ice.emplace(command.ice);
 
-  const std::vector<CrystalStudy> studies = study_all(command, planned);
+  if (!merging) studies = study_all(command, studies);
   if (command.picture) picture.write(pattern_picture(studies.front(), estimator));
   json.write(json_text(crystal_json(command, studies)));
   if (ice) ice->write(studies.front(), estimator, command.command);
@@ -208,6 +216,19 @@ void add_walk_options(CLI::App& app, CrystalCommand& command) {
       ->capture_default_str();
 }
 
+// The photons of files are what they are.
+void add_merge_option(CLI::App& app, CrystalCommand& command) {
+  auto* merge =
+      app.add_option("--merge", command.merge,
+                     "Walk no photons: put those of patterns (-o) together that were made apart, with "
+                     "--first-photon");
+  merge->type_name("FILE.h5...");
+  for (const char* walking :
+       {"--elongation", "--axes", "--fabric", "--grain", "--chords", "--wavelength", "--crossings",
+        "--angles", "--photons", "--first-photon", "--seed", "--scaling"})
+    merge->excludes(walking);
+}
+
 }  // namespace
 
 void add_crystal(CLI::App& floe, const std::string& command_line) {
@@ -217,6 +238,7 @@ void add_crystal(CLI::App& floe, const std::string& command_line) {
   command->command = command_line;
   add_ice_options(app, *command);
   add_walk_options(app, *command);
+  add_merge_option(app, *command);
   app.add_option("-o,--output", command->output, "File for patterns, their numbers and all photons")
       ->type_name("FILE.h5");
   app.add_option("--picture", command->picture, "Patterns on the sphere; deflection and widths")
@@ -227,6 +249,9 @@ void add_crystal(CLI::App& floe, const std::string& command_line) {
       "Examples:\n"
       "  floe crystal --elongation 1.4 --fabric 0.1,4 --grain 1mm --crossings 1000\n"
       "  floe crystal --fabric girdle --angles 0,30,60,90 -o patterns.h5 --json patterns.json\n"
+      "  floe crystal --photons 1000 --quiet -o first.h5\n"
+      "  floe crystal --photons 1000 --first-photon 1000 --quiet -o second.h5\n"
+      "  floe crystal --merge first.h5 second.h5 -o whole.h5\n"
       "  floe crystal --photons 2000 --scaling --picture patterns.svg\n"
       "  floe crystal --elongation 1,1.4,2 --fabric isotropic --fabric 0.1,4 --photons 1000\n"
       "  floe crystal --elongation 1.7 --grain 2mm --photons 2000 --ice south-pole --into coarse-ice");

@@ -10,6 +10,7 @@
 
 #include "data/base/text.h"
 #include "data/event_stream.h"
+#include "data/hdf5_input.h"
 #include "data/hdf5_readout_schema.h"
 #include "data/hdf5_schema.h"
 #include "data/hdf5_table_reader.h"
@@ -20,81 +21,9 @@ using namespace hdf5;
 
 namespace {
 
-constexpr const char* remake_advice = "The file is truncated or damaged: copy it again or make it again";
-
 [[noreturn]] void throw_problem(const Location& where, const Problem& problem, std::string_view table,
                                 hsize_t row) {
   throw InputError(where, fmt::format("{} in row {} of '{}'", problem.found, row, table), problem.expected);
-}
-
-Hdf5Handle open_file(const std::filesystem::path& path) {
-  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "set up the file");
-  checked(H5Pset_file_locking(access, false, true), "set up the file");
-  return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose, "open the file"};
-}
-
-// The root's attributes, each one value.
-class AttributeReader {
- public:
-  AttributeReader(hid_t file, const Location& where) : file_(file), where_(where) {}
-
-  // floe writes text of fixed length; h5py makes text of variable length, which is as good.
-  std::string text(const char* name) const {
-    const Hdf5Handle attribute = open(name, H5T_STRING, "text");
-    const Hdf5Handle type(H5Aget_type(attribute), H5Tclose, "read an attribute");
-    if (checked(H5Tis_variable_str(type), "read an attribute") == 0) return fixed_text(attribute, type);
-    char* value = nullptr;
-    checked(H5Aread(attribute, type, &value), "read an attribute");
-    const std::string result = value ? value : "";
-    H5free_memory(value);
-    return result;
-  }
-  std::uint64_t whole(const char* name) const {
-    std::uint64_t value = 0;
-    checked(H5Aread(open(name, H5T_INTEGER, "a whole number"), H5T_NATIVE_UINT64, &value),
-            "read an attribute");
-    return value;
-  }
-  double number(const char* name) const {
-    double value = 0;
-    checked(H5Aread(open(name, H5T_FLOAT, "a number"), H5T_NATIVE_DOUBLE, &value), "read an attribute");
-    return value;
-  }
-
- private:
-  Hdf5Handle open(const char* name, H5T_class_t kind, const char* kind_name) const {
-    if (checked(H5Aexists(file_, name), "look for an attribute") == 0)
-      throw InputError(where_, fmt::format("no attribute '{}'", name),
-                       fmt::format("the attributes of an event file ('format' is '{}')", format_name),
-                       "Only HDF5 files that follow docs/formats.md can be read");
-    Hdf5Handle attribute(H5Aopen(file_, name, H5P_DEFAULT), H5Aclose, "open an attribute");
-    const Hdf5Handle type(H5Aget_type(attribute), H5Tclose, "read an attribute");
-    const Hdf5Handle space(H5Aget_space(attribute), H5Sclose, "read an attribute");
-    if (H5Tget_class(type) != kind || H5Sget_simple_extent_npoints(space) != 1)
-      throw InputError(where_, fmt::format("an attribute '{}' of another kind", name),
-                       fmt::format("{}, one value", kind_name));
-    return attribute;
-  }
-  static std::string fixed_text(const Hdf5Handle& attribute, const Hdf5Handle& type) {
-    std::string value(H5Tget_size(type), '\0');
-    checked(H5Aread(attribute, type, value.data()), "read an attribute");
-    return value.substr(0, value.find('\0'));
-  }
-
-  hid_t file_;
-  const Location& where_;
-};
-
-void expect_format(const AttributeReader& attributes, const Location& where) {
-  const std::string format = attributes.text("format");
-  if (format != format_name)
-    throw InputError(where, "the format " + in_quotes(format), fmt::format("'{}'", format_name),
-                     "Only HDF5 files that follow docs/formats.md can be read");
-  const std::uint64_t version = attributes.whole("format_version");
-  if (version != format_version)
-    throw InputError(where, fmt::format("version {} of the format", version),
-                     fmt::format("version {}", format_version),
-                     "Use the release of floe that wrote the file");
 }
 
 Provenance read_provenance(const AttributeReader& attributes, const Location& where) {
@@ -245,11 +174,7 @@ bool is_hdf5(const std::filesystem::path& path) {
 
 struct EventFileReader::Impl {
   explicit Impl(const std::filesystem::path& path) : where{path.string()} {
-    if (!is_hdf5(path)) {
-      const bool empty = std::filesystem::file_size(path) == 0;
-      throw InputError(where, empty ? "an empty file" : "a file that is not HDF5",
-                       "an HDF5 event file as 'floe simulate' and 'floe import' write it");
-    }
+    expect_hdf5(path, "an HDF5 event file as 'floe simulate' and 'floe import' write it");
     guarded([&] { open(path); });
   }
   ~Impl() {
@@ -266,15 +191,14 @@ struct EventFileReader::Impl {
     try {
       work();
     } catch (const Hdf5Failure& failure) {
-      throw InputError(where, fmt::format("HDF5 that cannot be read ({})", failure.what()),
-                       "a whole HDF5 file", remake_advice);
+      throw_input_error(where.file, failure);
     }
   }
 
   void open(const std::filesystem::path& path) {
-    file = open_file(path);
+    file = open_for_reading(path);
     const AttributeReader attributes(file, where);
-    expect_format(attributes, where);
+    expect_format(attributes, where, format_name, format_version);
     provenance = read_provenance(attributes, where);
     events.emplace(file, where), particles.emplace(file, where);
     provenance.pulses = has_table(file, "hits") && has_column(file, "hits", "width_ns");

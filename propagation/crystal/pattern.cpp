@@ -11,7 +11,7 @@ namespace floe {
 
 namespace {
 
-constexpr std::size_t portions = 20, least_photons = 200;
+constexpr std::size_t portions = 20;
 constexpr double core_limit = 3;  // core widths
 
 using Numbers = std::array<double, pattern_numbers>;
@@ -140,9 +140,9 @@ std::string_view name_of(PatternNumber number) {
 }
 
 PatternStatistics::PatternStatistics(std::span<const WalkedPhoton> photons, double length) {
-  if (photons.size() < least_photons)
-    throw UsageError(
-        fmt::format("a diffusion pattern of {} photons; expected {} or more", photons.size(), least_photons));
+  if (photons.size() < fewest_pattern_photons)
+    throw UsageError(fmt::format("a diffusion pattern of {} photons; expected {} or more", photons.size(),
+                                 fewest_pattern_photons));
   const Numbers whole = numbers_of(photons, length);
   Numbers sum{}, squares{};
   for (std::size_t i = 0; i < portions; ++i) {

@@ -50,11 +50,13 @@ struct Estimate {
   double value = 0, error = 0;
 };
 
+inline constexpr std::size_t fewest_pattern_photons = 200;
+
 // Errors are those of 20 portions of the photons: the spread of their values over the square root of 20.
 // The core: photons within 3 core widths of the median, in x and in y; displacements are told of it.
 class PatternStatistics {
  public:
-  // `length`: of each photon's path [m]. At least 200 photons; throws UsageError with fewer.
+  // `length`: of each photon's path [m]. Throws UsageError with fewer than fewest_pattern_photons.
   PatternStatistics(std::span<const WalkedPhoton> photons, double length);
   const Estimate& operator[](PatternNumber number) const {
     return estimates_[static_cast<std::size_t>(number)];

@@ -12,6 +12,7 @@
 // In the order in which help lists them.
 #define FLOE_CATALOGUE(EFFECT)  \
   EFFECT(birefringence)         \
+  EFFECT(grains)                \
   EFFECT(absorption_anisotropy) \
   EFFECT(scattering_anisotropy) \
   EFFECT(flow_azimuth)          \

@@ -19,6 +19,9 @@ struct CrystalStudy {
   std::vector<ScalingCheck> scaling;      // empty unless asked for
 };
 
+// Of patterns that were walked already, `grid.photons` of each of the grid's angles.
+CrystalStudy study_patterns(const std::string& name, const std::string& fabric, const PatternGrid& grid,
+                            std::vector<CrystalPattern> patterns);
 CrystalStudy study_crystal(const std::string& name, const std::string& fabric, const PatternGrid& grid,
                            bool with_scaling, const Progress& progress = {});
 

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "data/hdf5_output.h"
+#include "reco/crystal/pattern_schema.h"
 
 namespace floe {
 
@@ -13,25 +14,21 @@ using namespace hdf5;
 
 namespace {
 
-constexpr const char* format_name = "floe-crystal";
-constexpr std::uint64_t format_version = 1;
 constexpr hsize_t photons_per_chunk = 4096;
 
-template <typename Number>
 void write_array(hid_t place, const char* name, std::span<const hsize_t> shape,
-                 std::span<const hsize_t> chunk, hid_t in_file, hid_t in_memory,
-                 const std::vector<Number>& values) {
+                 std::span<const hsize_t> chunk, const std::vector<double>& values) {
   const Hdf5Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose,
                          "describe an array");
   const Hdf5Handle layout = compressed_layout(chunk);
-  const Hdf5Handle set(H5Dcreate2(place, name, in_file, space, H5P_DEFAULT, layout, H5P_DEFAULT), H5Dclose,
-                       "create an array");
-  checked(H5Dwrite(set, in_memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "write an array");
+  const Hdf5Handle set(H5Dcreate2(place, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, layout, H5P_DEFAULT),
+                       H5Dclose, "create an array");
+  checked(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "write an array");
 }
 
 void write_numbers(hid_t place, const std::string& name, const std::vector<double>& values) {
   const std::array<hsize_t, 1> shape{values.size()};
-  write_array(place, name.c_str(), shape, shape, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values);
+  write_array(place, name.c_str(), shape, shape, values);
 }
 
 Hdf5Handle make_group(hid_t place, const std::string& name) {
@@ -74,18 +71,19 @@ void write_fit(hid_t place, const char* name, const DiffusionFit& fit) {
   }
 }
 
-// All photons: [angle][photon][direction x, y, n, position x, y, n].
+// All photons: [angle][photon][direction x, y, n, position x, y, n], in full: whoever reads them again finds
+// the same statistics.
 void write_photons(hid_t place, const CrystalStudy& study) {
   const hsize_t photons = study.grid.photons;
-  std::vector<float> values;
-  values.reserve(study.patterns.size() * photons * 6);
+  std::vector<double> values;
+  values.reserve(study.patterns.size() * photons * photon_columns);
   for (const CrystalPattern& pattern : study.patterns)
     for (const WalkedPhoton& photon : pattern.photons)
       for (const Vec3& vector : {photon.direction, photon.position})
-        for (int axis = 0; axis < 3; ++axis) values.push_back(static_cast<float>(vector[axis]));
-  const std::array<hsize_t, 3> shape{study.patterns.size(), photons, 6};
-  const std::array<hsize_t, 3> chunk{1, std::min(photons, photons_per_chunk), 6};
-  write_array(place, "photons", shape, chunk, H5T_IEEE_F32LE, H5T_NATIVE_FLOAT, values);
+        for (int axis = 0; axis < 3; ++axis) values.push_back(vector[axis]);
+  const std::array<hsize_t, 3> shape{study.patterns.size(), photons, photon_columns};
+  const std::array<hsize_t, 3> chunk{1, std::min(photons, photons_per_chunk), photon_columns};
+  write_array(place, "photons", shape, chunk, values);
 }
 
 void write_ice(hid_t place, const CrystalStudy& study) {
@@ -124,8 +122,8 @@ void write_patterns(AtomicFile& file, const PatternProvenance& provenance,
                     std::span<const CrystalStudy> studies) {
   guarded(file.temporary(), [&] {
     Hdf5Handle handle = create_file(file.temporary());
-    write_attribute(handle, "format", format_name);
-    write_attribute(handle, "format_version", format_version);
+    write_attribute(handle, "format", pattern_format);
+    write_attribute(handle, "format_version", pattern_format_version);
     write_attribute(handle, "version", provenance.version);
     write_attribute(handle, "command", provenance.command);
     write_attribute(handle, "wavelength_nm", provenance.wavelength);

@@ -20,12 +20,19 @@ constexpr double widest_band = 160;              // [m]; wider ones are no bands
 
 using Kind = SurveyColumn::Kind;
 
-// All but what brightness and time zero of each run take up, and what layers, bands and places say.
+// All but what brightness and time zero of each run take up, and what layers, bands and places say. The size
+// of grains is the strength of birefringence by another name.
 bool is_plain(const std::string& effect) {
-  static const std::vector<std::string> others{
-      "overall-efficiency", "flasher-brightness", "time-offset",
-      "absorption-layer",   "scattering-layer",   "module-efficiency",
-      "string-efficiency",  "geometry-offset",    "tilt"};
+  static const std::vector<std::string> others{"overall-efficiency",
+                                               "flasher-brightness",
+                                               "time-offset",
+                                               "absorption-layer",
+                                               "scattering-layer",
+                                               "module-efficiency",
+                                               "string-efficiency",
+                                               "geometry-offset",
+                                               "tilt",
+                                               "grains"};
   return std::find(others.begin(), others.end(), effect) == others.end();
 }
 

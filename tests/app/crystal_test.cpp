@@ -3,7 +3,9 @@
 #include <hdf5.h>
 
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "propagation/ice/ice_model.h"
 #include "propagation/ice/ice_tables.h"
@@ -103,6 +105,57 @@ TEST_F(Crystal, WritesGrainsOfLayers) {
   }
 }
 
+// Not nearly: every number of the patterns and of their fits, and every photon.
+TEST_F(Crystal, MergedSharesAreTheWholeRun) {
+  const std::string ice =
+      "--crossings 100 --angles 0,20,33.3,50,70,90 --seed 5 --quiet --elongation 1.4,2 --wavelength 420 ";
+  floe_well(ice + "--photons 1000 -o whole.h5 --json whole.json");
+  floe_well(ice + "--photons 300 -o a.h5");
+  floe_well(ice + "--photons 450 --first-photon 300 -o b.h5");
+  floe_well(ice + "--photons 250 --first-photon 750 -o c.h5");
+  floe_well("--merge c.h5 a.h5 b.h5 -o merged.h5 --json merged.json --quiet");
+  Json whole = json_of("whole.json"), merged = json_of("merged.json");
+  EXPECT_EQ(merged["ice"].size(), 2U);
+  whole.erase("command"), merged.erase("command");
+  EXPECT_EQ(merged, whole);
+  floe_well("--merge merged.h5 --json again.json --quiet");
+  EXPECT_EQ(json_of("again.json")["ice"], whole["ice"]);
+}
+
+TEST_F(Crystal, MergedSharesBecomeIceAndPictures) {
+  floe_well(quick + "--grain 2mm -o a.h5 --quiet");
+  const Outcome outcome =
+      floe_well("--merge a.h5 --ice south-pole --into coarse --picture p.svg --estimator core");
+  EXPECT_NE(outcome.out.find("1000 photons an angle"), std::string::npos) << outcome.out;
+  for (const IceLayerRow& row : read_ice_tables(folder_.path() / "coarse").layers)
+    EXPECT_DOUBLE_EQ(row.birefringence_strength, 0.5);
+  EXPECT_TRUE(bytes_of(folder_.path() / "p.svg").starts_with("<svg "));
+}
+
+// Shares that do not belong together, each beside a.h5 with photons 0 to 199 of seed 1.
+TEST_F(Crystal, SharesMustBelongTogether) {
+  const std::string ice = "--crossings 20 --angles 0,90 --photons 200 --quiet ";
+  floe_well(ice + "-o a.h5");
+  floe_well(ice + "--first-photon 100 -o overlap.h5");
+  floe_well(ice + "--first-photon 300 -o gap.h5");
+  floe_well(ice + "--first-photon 200 --seed 2 -o seed.h5");
+  floe_well(ice + "--first-photon 200 --elongation 2 -o shape.h5");
+  const std::pair<const char*, const char*> cases[] = {
+      {"a.h5", "a.h5: found photons from number 0 on; expected number 200"},
+      {"overlap.h5",
+       "overlap.h5: found photons from number 100 on; expected number 200, where those of a.h5"},
+      {"gap.h5", "gap.h5: found photons from number 300 on"},
+      {"seed.h5", "seed.h5: found patterns of another run"},
+      {"shape.h5", "shape.h5: found patterns of another run"}};
+  for (const auto& [file, said] : cases) {
+    const Outcome outcome =
+        run_floe(folder_.path(), std::string("crystal --merge a.h5 ") + file + " -o out.h5");
+    EXPECT_EQ(outcome.code, 3) << file;
+    EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out.h5")) << file;
+  }
+}
+
 class WrongCrystal : public ::testing::TestWithParam<WrongCase> {};
 
 TEST_P(WrongCrystal, IsSaidAndLeavesNothing) {
@@ -127,6 +180,9 @@ const WrongCase wrong_cases[] = {
     {"layer_grains", " --into new --layer-grains falling.txt", 3, "falling.txt:2"},
     {"no_ice", " --into new --ice nowhere", 3, "nowhere"},
     {"no_folder", " -o nowhere/p.h5", 5, "nowhere"},
+    {"merge_and_walk", " --merge falling.txt --photons 1000", 2, "--photons"},
+    {"merge_of_text", " --merge falling.txt -o out.h5", 3, "falling.txt: found a file that is not HDF5"},
+    {"merge_of_nothing", " --merge nowhere.h5 -o out.h5", 3, "nowhere.h5"},
     {"unknown", " --grains 1mm", 2, "--grain"},
 };
 INSTANTIATE_TEST_SUITE_P(Cases, WrongCrystal, ::testing::ValuesIn(cases_of("crystal", wrong_cases)),

@@ -60,7 +60,7 @@ TEST(EffectsCommand, HoldsTheSameInJson) {
   const TemporaryFolder folder;
   const Json json = json_of(folder, "effects");
   EXPECT_EQ(json["model"]["ice"]["name"], "south-pole");
-  EXPECT_EQ(json["effects"].size(), 21u);
+  EXPECT_EQ(json["effects"].size(), 22u);
   const Json& first = json["effects"].at(0);
   EXPECT_EQ(first["name"], "birefringence");
   EXPECT_EQ(first["source"], "arXiv:2107.08692");

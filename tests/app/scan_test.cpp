@@ -67,6 +67,25 @@ TEST_F(Scan, FindsMoreAbsorption) {
     EXPECT_NE(picture.find(said), std::string::npos) << said;
 }
 
+// Long grains turn light more, and so do many small ones: the data tell the two apart badly
+// (arXiv:2107.08692).
+TEST_F(Scan, OfGrainsTradesSizeForElongation) {
+  write_bytes(folder_.path() / "runs.toml",
+              "[defaults]\nphotons = 3e8\n[[run]]\nmodule = [36, 20]\n[[run]]\nmodule = [45, 40]\n");
+  floe_well(
+      "simulate --flashers runs.toml --oversize 50 --quiet -o runs.h5 --with "
+      "grains.elongation=1.7,grains.size=0.8");
+  floe_well(
+      "scan runs.h5 --oversize 50 --light 5 --quiet --x grains.elongation=1:2.4:3 --y grains.size=0.5:1.1:3 "
+      "-o map.json");
+  const Json map = json_of("map.json");
+  EXPECT_EQ(map["x"]["base"], 1.4);
+  EXPECT_EQ(map["y"]["unit"], "mm");
+  const auto at = [&](int row, int column) { return map["neg_llh"][row][column].get<double>(); };
+  const double together = at(0, 0) + at(2, 2), against = at(0, 2) + at(2, 0), noise = map["noise"];
+  EXPECT_LT(together + 3 * noise, against);
+}
+
 TEST_F(Scan, DoesNotDependOnThreads) {
   simulate("");
   const std::string scan =

@@ -53,7 +53,7 @@ TEST(Effects, HaveNamesOfTheirOwnAndSayWhatTheyAre) {
         EXPECT_LE(parameter.null_value, parameter.high);
       }
   }
-  EXPECT_EQ(names.size(), 20u);
+  EXPECT_EQ(names.size(), 22u);
 }
 
 TEST(Effects, ChangeNothingAtTheirNullValues) {

@@ -46,9 +46,11 @@ TEST_F(Suspects, AreTheEffectsThatTheDataCanTell) {
        {"birefringence.strength", "absorption-anisotropy.k1", "flow-azimuth.azimuth", "tilt 1800 m",
         "scattering-function.g", "hole-ice.radius", "flasher-profile.width", "noise.rate"})
     EXPECT_TRUE(planned(name)) << name;
-  // Taken up by each run's brightness and time zero, or judged place by place.
-  for (const char* name : {"flasher-brightness.factor", "overall-efficiency.factor", "time-offset.time",
-                           "absorption-layer.factor", "string-efficiency.factor"})
+  // Taken up by each run's brightness and time zero, judged place by place, or another name for the strength
+  // of birefringence.
+  for (const char* name :
+       {"flasher-brightness.factor", "overall-efficiency.factor", "time-offset.time",
+        "absorption-layer.factor", "string-efficiency.factor", "grains.size", "grains.elongation"})
     EXPECT_FALSE(planned(name)) << name;
   // Where there is no hole ice, its scattering length changes nothing.
   EXPECT_FALSE(planned("hole-ice.scattering"));
