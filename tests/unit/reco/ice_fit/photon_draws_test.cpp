@@ -62,6 +62,9 @@ TEST_F(PhotonDrawsTest, WholePhotonsAreDrawn) {
   EXPECT_NEAR(whole.variance / (2.5 * scale * photons), 1, error);
   const auto apart = moments_of(PhotonDraws(light_, bins_, scale, false), number_, sum);
   EXPECT_NEAR(apart.variance / (1.5 * scale * photons), 1, error);
+  // Charges that differ from photoelectron to photoelectron.
+  const auto charged = moments_of(PhotonDraws(light_, bins_, scale, false, 1.4), number_, sum);
+  EXPECT_NEAR(charged.variance / (1.4 * 1.5 * scale * photons), 1, error);
 }
 
 }  // namespace

@@ -61,6 +61,38 @@ TEST(FlasherData, LeavesOutWhatTheRecordCannotTell) {
   EXPECT_EQ(flasher_data(five_modules(), events).runs.at(0).used, (std::vector<char>{0, 0, 0, 0, 1}));
 }
 
+// Dark noise, afterpulses, when modules were awake; and by how much charges of single photoelectrons scatter:
+// <q^2>/<q>, told by modules that seldom see two in a flash (the second one sees more).
+TEST(FlasherData, KnowsTheElectronicsRecord) {
+  Event event = run_of("a", {0, 0, 3, 0, 0}, 1000);
+  for (const float charge : {0.5f, 1.5f, 1.5f, 0.5f}) {
+    event.hits.push_back(event.hits.front());
+    event.hits.back().module = {5, 1};
+    event.hits.back().charge = charge / 1000;
+  }
+  RecordingModules modules;
+  for (int string = 1; string <= 5; ++string)
+    modules.push_back({{string, 1}, string != 2, 400.0 + 10 * string});
+  event.readout =
+      Readout{-4000, 6000, {0.06, 300, 11000}, {}, std::make_shared<const RecordingModules>(modules)};
+  const RunData run = flasher_data(five_modules(), std::vector<Event>{event}).runs.at(0);
+  EXPECT_EQ(run.first, -4000);
+  EXPECT_EQ(run.last, 6000);
+  EXPECT_NEAR(run.noise_rate, (410 + 430 + 440 + 450) / 4.0, 1e-9);
+  EXPECT_EQ(run.afterpulses.share, 0.06);
+  EXPECT_NEAR(run.charge_dispersion, (2 * 0.25 + 2 * 2.25) / 4, 1e-6);
+}
+
+TEST(FlasherData, KnowsNothingOfElectronicsWithoutTheirRecord) {
+  const std::vector<Event> events{run_of("a", {7, 0.5, 2, 3, 1})};
+  const RunData run = flasher_data(five_modules(), events).runs.at(0);
+  EXPECT_EQ(run.noise_rate, 0);
+  EXPECT_EQ(run.afterpulses.share, 0);
+  EXPECT_EQ(run.charge_dispersion, 1);
+  EXPECT_EQ(run.first, 100);
+  EXPECT_EQ(run.last, 100);
+}
+
 TEST(FlasherData, IsTheChargeOfAllFlashesOnModulesThatCount) {
   const std::vector<Event> events{run_of("a", {7, 0.5, 2, 3, 1})};
   const FlasherData data = flasher_data(five_modules(), events);
