@@ -40,7 +40,9 @@ TEST(TiltParameters, ChangeNothingAtZero) {
 }
 
 TEST(TiltParameters, AddToTheTiltThatIsThere) {
-  const Model base = load_model({.with = {{"tilt", "slope", 15}}});
+  ModelRequest request;
+  request.with = {{"tilt", "slope", 15}};
+  const Model base = load_model(request);
   const Model more = with_parameters(base, tilt_parameters(range), {5, 5, 5});
   EXPECT_NEAR(rise_at(more, 400, 1850), 0.020 * 400, 0.02);
 }
