@@ -30,7 +30,7 @@ constexpr std::uint64_t streams_a_run = 1 << 10, streams_a_round = 1 << 20;
 // What is known of a run between rounds.
 struct RunState {
   double hits_per_photon = 0;  // simulated, of used receivers
-  double brightness = 1;       // N of all flashes together
+  double brightness = 0;       // N of all flashes together; 0: not yet known
   double time_zero = 0;        // [ns]
   RunBins bins;
   RunLight seen;  // of the rounds from the second on, in these bins

@@ -50,7 +50,7 @@ double photons_wanted(const RunData& run, double hits_per_photon, const LightBud
 }
 
 NoiseWindow noise_window(const RunData& run, double brightness) {
-  return {run.first, run.last, run.repeats / brightness, run.noise_rate};
+  return {run.first, run.last, brightness > 0 ? run.repeats / brightness : 0, run.noise_rate};
 }
 
 Scout scout_run(const Model& model, RunRequest request, double time_zero) {
