@@ -15,7 +15,7 @@ constexpr double acceptable_pull = 1.5;  // of the last step of all
 // they are taught with more photons, up to so many times the usual.
 constexpr double least_fresh_share = 0.2, acceptable_loss = 1.3, most_training = 6;
 constexpr double acceptable_dispersion = 1.8, least_reach = 0.3;
-constexpr double last_judging = 2.5;    // photons of the last calibration, times the usual
+constexpr double last_judging = 2.5;  // photons of the last calibration, times the usual
 constexpr double close_enough = 1.2;  // last steps, in steps of the narrow design
 // [photoelectrons] expected: hardly any module stays dark.
 constexpr double surely_seen = 4;

@@ -43,7 +43,8 @@ void check(const RunSettings& settings);  // throws UsageError for values out of
 // N of a run's simulation.
 double photons_wanted(const RunData& run, double hits_per_photon, const LightBudget& budget);
 
-// Of a run of this brightness, as a RunRequest holds it; none while that is not known yet (0). Noise of a readout lasts as long as its pulses do.
+// Of a run of this brightness, as a RunRequest holds it; none while that is not known yet (0). Noise of a
+// readout lasts as long as its pulses do.
 NoiseWindow noise_window(const RunData& run, double brightness);
 
 // What tells a run's bins: a simulation of a share of its light, `request.photons` being all of it, moved by
