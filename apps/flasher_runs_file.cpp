@@ -5,12 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string>
-#include <toml.hpp>
 
-#include "data/base/error.h"
 #include "data/base/text.h"
+#include "data/base/toml_text.h"
 #include "data/base/words.h"
 #include "data/event_rules.h"
 
@@ -18,20 +16,14 @@ namespace floe {
 
 namespace {
 
-std::string without_indent(const std::string& text) {
-  const auto begin = text.find_first_not_of(" \t");
-  return begin == text.npos ? "" : text.substr(begin);
-}
-
 // A key of a table with its value, and where they stand.
 struct Entry {
   std::string file, key;
   const toml::value* value;
 
-  Location where() const { return {file, static_cast<long>(value->location().line())}; }
+  Location where() const { return place_of(file, *value); }
   [[noreturn]] void refuse(std::string_view expected) const {
-    throw InputError(where(), in_quotes(without_indent(value->location().line_str())),
-                     fmt::format("{} for {}", expected, key));
+    throw InputError(where(), quoted_line(*value), fmt::format("{} for {}", expected, key));
   }
   double number() const {
     if (value->is_integer()) return static_cast<double>(value->as_integer());
@@ -187,34 +179,11 @@ RunToSimulate read_run(const Entry& table, const RunToSimulate& defaults) {
   return run;
 }
 
-// "[error] toml::parse_array: a reason\n --> ..." is told as "a reason".
-std::string reason_of(const toml::exception& error) {
-  std::string reason = error.what();
-  reason = reason.substr(0, reason.find('\n'));
-  for (const std::string_view before_reason : {"[error] ", ": "})
-    if (const auto found = reason.find(before_reason); found != reason.npos)
-      reason = reason.substr(found + before_reason.size());
-  return reason;
-}
-
-toml::value parsed(const std::string& file) {
-  std::istringstream text(read_whole_file(file));
-  try {
-    return toml::parse(text, file);
-  } catch (const toml::exception& error) {
-    const auto place = error.location();
-    throw InputError({file, static_cast<long>(place.line())}, in_quotes(without_indent(place.line_str())),
-                     fmt::format("TOML ({})", reason_of(error)), "Its format is in docs/formats.md");
-  } catch (const std::exception& error) {  // e.g. a number that no number type holds
-    throw InputError({file}, "what cannot be read as TOML", fmt::format("TOML ({})", error.what()));
-  }
-}
-
 }  // namespace
 
 std::vector<RunToSimulate> read_flasher_runs(const std::filesystem::path& path) {
   const std::string file = path.string();
-  const toml::value content = parsed(file);
+  const toml::value content = read_toml(file, "Its format is in docs/formats.md");
   RunToSimulate defaults;
   defaults.run.module = {1, 1};  // until a run names its own
   defaults.run.orientation = 0;

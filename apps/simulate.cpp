@@ -222,8 +222,9 @@ class Run {
     if (!event.sources.empty()) emitter = event.sources.front().source->emitting_module();
     const auto hits = noise_hits(simulator_.model(), window, emitter, options_.settings.seed, stream_);
     write(hits, event, result);
+    const auto count = static_cast<double>(hits.size());
     result.summary.hits += hits.size();
-    for (std::size_t i = 0; i < hits.size(); ++i) result.summary.weights.add(1);
+    result.summary.weights += {hits.size(), count, count};
   }
 
   void write(std::span<const SimulatedHit> hits, const PlannedEvent& event, EventResult& result) {

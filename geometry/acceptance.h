@@ -32,6 +32,7 @@ class AngularAcceptance {
   bool is_surface() const { return surface_; }
   double cut() const { return cut_; }
   const std::vector<double>& coefficients() const { return coefficients_; }
+  bool operator==(const AngularAcceptance&) const = default;
 
  private:
   bool surface_ = false;
@@ -46,6 +47,7 @@ class WavelengthSpectrum {
  public:
   struct Point {
     double cumulative, wavelength;
+    bool operator==(const Point&) const = default;
   };
   // Throws InputError unless points rise strictly in wavelength, do not fall in cumulative, start at 0
   // and end at 1.
@@ -54,6 +56,7 @@ class WavelengthSpectrum {
   double sample(double u) const;            // wavelength at cumulative u in [0, 1]
   double density(double wavelength) const;  // [1/nm]
   const std::vector<Point>& points() const { return points_; }
+  bool operator==(const WavelengthSpectrum&) const = default;
 
  private:
   static constexpr std::size_t guides = 256;
@@ -70,11 +73,13 @@ class HighQeRatio {
  public:
   struct Point {
     double wavelength, ratio;
+    bool operator==(const Point&) const = default;
   };
   explicit HighQeRatio(std::vector<Point> points);  // throws InputError
   double operator()(double wavelength) const;
   double maximum() const;
   const std::vector<Point>& points() const { return points_; }
+  bool operator==(const HighQeRatio&) const = default;
 
  private:
   std::vector<Point> points_;
@@ -94,6 +99,8 @@ struct ModuleAcceptance {
   WavelengthSpectrum spectrum{{{0, 300}, {1, 600}}};  // Cherenkov light as a nominal module accepts it
   std::optional<HighQeRatio> high_qe;                 // absent: high-QE modules differ by efficiency only
   double cable_radius = floe::cable_radius;           // of the main cables [m]; 0: they hide nothing
+
+  bool operator==(const ModuleAcceptance&) const = default;
 };
 
 // The built-in acceptance: nominal IceCube module, from published curves, with its sources.

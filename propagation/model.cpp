@@ -110,6 +110,14 @@ Model freeze(ModelParts parts) {
           std::move(parts.acceptance), parts.sources, parts.noise_rate};
 }
 
+ModelDifference difference(const Model& a, const Model& b) {
+  return {.ice = a.ice->hash() != b.ice->hash(),
+          .detector = a.detector->hash() != b.detector->hash(),
+          .acceptance = a.acceptance != b.acceptance,
+          .sources = a.sources != b.sources,
+          .noise_rate = a.noise_rate != b.noise_rate};
+}
+
 ModelParts parts_of(const Model& model) {
   return {model.ice->tables(), *model.detector, model.acceptance, model.sources, model.noise_rate};
 }

@@ -26,6 +26,13 @@ struct Model {
       0;  // of every module [Hz]; simulations add its hits where they are asked to (noise_hits.h)
 };
 
+// Which parts of two models differ.
+struct ModelDifference {
+  bool ice, detector, acceptance, sources, noise_rate;
+  bool operator==(const ModelDifference&) const = default;
+};
+ModelDifference difference(const Model& a, const Model& b);
+
 // Checks the parts and works out what follows. Throws InputError (see IceModel).
 Model freeze(ModelParts parts);
 // What freeze() makes the same model of.

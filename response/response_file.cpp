@@ -5,33 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
-#include <toml.hpp>
 
-#include "data/base/error.h"
 #include "data/base/text.h"
+#include "data/base/toml_text.h"
 #include "data/base/words.h"
 
 namespace floe {
 
 namespace {
-
-toml::value parsed(const std::string& file) {
-  std::istringstream text(read_whole_file(file));
-  try {
-    return toml::parse(text, file);
-  } catch (const toml::exception& error) {
-    const auto place = error.location();
-    throw InputError({file, static_cast<long>(place.line())}, in_quotes(place.line_str()), "TOML",
-                     "Its keys are in docs/formats.md; floe respond --write-response FILE.toml writes one");
-  } catch (const std::exception&) {  // e.g. a number that no number type holds
-    throw InputError({file}, "what cannot be read as TOML", "TOML");
-  }
-}
-
-Location place_of(const std::string& file, const toml::value& value) {
-  return {file, static_cast<long>(value.location().line())};
-}
 
 [[noreturn]] void refuse_name(const std::string& file, const toml::value& value, const std::string& kind,
                               const std::string& name, std::vector<std::string> known) {
@@ -49,7 +30,7 @@ double number_of(const std::string& file, const ResponseSetting& setting, const 
                                               : std::nan("");
   const bool wants_whole = std::holds_alternative<int*>(setting.value);
   if (!(number >= setting.low && number <= setting.high) || (wants_whole && !whole))
-    throw InputError(place_of(file, value), in_quotes(value.location().line_str()),
+    throw InputError(place_of(file, value), quoted_line(value),
                      fmt::format("a {} from {:g} to {:g} for {}", wants_whole ? "whole number" : "number",
                                  setting.low, setting.high, setting.key));
   return number;
@@ -58,8 +39,7 @@ double number_of(const std::string& file, const ResponseSetting& setting, const 
 CoincidenceMode mode_of(const std::string& file, const toml::value& value) {
   for (const auto mode : {CoincidenceMode::soft, CoincidenceMode::hard, CoincidenceMode::none})
     if (value.is_string() && value.as_string().str == name_of(mode)) return mode;
-  throw InputError(place_of(file, value), in_quotes(value.location().line_str()),
-                   "\"soft\", \"hard\" or \"none\" for mode");
+  throw InputError(place_of(file, value), quoted_line(value), "\"soft\", \"hard\" or \"none\" for mode");
 }
 
 void set(const std::string& file, const ResponseSetting& setting, const toml::value& value) {
@@ -84,7 +64,8 @@ std::string value_text(const ResponseSetting& setting) {
 
 ResponseSettings read_response_file(const std::filesystem::path& path) {
   const std::string file = path.string();
-  const toml::value content = parsed(file);
+  const toml::value content =
+      read_toml(file, "Its keys are in docs/formats.md; floe respond --write-response FILE.toml writes one");
   ResponseSettings settings;
   const std::vector<ResponseSetting> list = list_of(settings);
   for (const auto& [section, table] : content.as_table()) {
@@ -95,8 +76,7 @@ ResponseSettings read_response_file(const std::filesystem::path& path) {
     }
     if (keys.empty()) refuse_name(file, table, "section", section, sections);
     if (!table.is_table())
-      throw InputError(place_of(file, table), in_quotes(table.location().line_str()),
-                       fmt::format("a section [{}]", section));
+      throw InputError(place_of(file, table), quoted_line(table), fmt::format("a section [{}]", section));
     for (const auto& [key, value] : table.as_table()) {
       const auto setting = std::find_if(list.begin(), list.end(), [&](const ResponseSetting& one) {
         return one.section == section && one.key == key;

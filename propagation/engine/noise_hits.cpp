@@ -8,12 +8,6 @@
 
 namespace floe {
 
-namespace {
-
-constexpr double seconds_per_nanosecond = 1e-9;
-
-}  // namespace
-
 std::vector<SimulatedHit> noise_hits(const Model& model, const NoiseWindow& window,
                                      std::optional<std::size_t> emitter, std::uint64_t seed,
                                      std::uint64_t stream) {

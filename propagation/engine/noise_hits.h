@@ -10,6 +10,8 @@
 
 namespace floe {
 
+inline constexpr double seconds_per_nanosecond = 1e-9;
+
 // Photons of a simulation have smaller numbers.
 inline constexpr std::uint64_t first_noise_hit = std::uint64_t{1} << 62;
 

@@ -1,7 +1,7 @@
 // Drawing a cascade's photons, many at a time: the loop becomes vector code.
 #include "data/base/constants.h"
-#include "propagation/engine/directions.h"
 #include "propagation/sources/cascade.h"
+#include "propagation/sources/cherenkov.h"
 
 namespace floe {
 
@@ -24,10 +24,7 @@ void CascadeSource::emit(RandomStreams& random, EmittedPhotons& photons) const {
 
     float nx = axis_x, ny = axis_y, nz = axis_z;
     const float particle_angle = particle_angles(random.uniform(i));
-    const TurnFunctions<float> around_axis = turn_functions(random.uniform(i));
-    deflect(particle_angle, around_axis.cosine, around_axis.sine, nx, ny, nz);
-    const TurnFunctions<float> around_particle = turn_functions(random.uniform(i));
-    deflect(cherenkov_angles(colour), around_particle.cosine, around_particle.sine, nx, ny, nz);
+    turn_to_photon(random, i, particle_angle, cherenkov_angles(colour), nx, ny, nz);
     photons.nx[i] = nx;
     photons.ny[i] = ny;
     photons.nz[i] = nz;

@@ -7,7 +7,6 @@
 
 #include "data/base/constants.h"
 #include "data/base/error.h"
-#include "propagation/engine/directions.h"
 #include "propagation/sources/cherenkov.h"
 
 namespace floe {
@@ -54,10 +53,7 @@ void MuonSource::emit(RandomStreams& random, EmittedPhotons& photons) const {
 
     float nx = axis_x, ny = axis_y, nz = axis_z;
     const float choice = random.uniform(i), shower_angle = particle_angles(random.uniform(i));
-    const TurnFunctions<float> around_axis = turn_functions(random.uniform(i));
-    deflect(choice < bare_share ? 0.0f : shower_angle, around_axis.cosine, around_axis.sine, nx, ny, nz);
-    const TurnFunctions<float> around_particle = turn_functions(random.uniform(i));
-    deflect(cherenkov(colour), around_particle.cosine, around_particle.sine, nx, ny, nz);
+    turn_to_photon(random, i, choice < bare_share ? 0.0f : shower_angle, cherenkov(colour), nx, ny, nz);
     photons.nx[i] = nx;
     photons.ny[i] = ny;
     photons.nz[i] = nz;

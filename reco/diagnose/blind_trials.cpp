@@ -85,11 +85,14 @@ class Trials {
 
   std::vector<SeenAbove> power(const ScoreTester& tester) const {
     std::map<std::string, std::vector<double>> changes;
+    std::map<std::string, std::vector<IceParameter>> of_effect;  // alike at all places
     std::vector<SeenAbove> all;
     for (const TestedSuspect& tested : tester.suspects()) {
       const Suspect& suspect = *tested.suspect;
       const double gain = tester.gain_to_be_named(suspect.effect, options_.alpha);
-      const std::vector<IceParameter> parameters = changing_parameters(suspect);
+      const auto [known, is_new] = of_effect.try_emplace(suspect.effect);
+      if (is_new) known->second = changing_parameters(suspect);
+      const std::vector<IceParameter>& parameters = known->second;
       for (std::size_t i = 0; i < parameters.size(); ++i) {
         const auto index = static_cast<Eigen::Index>(i);
         const double of_one = tested.expected_gain(Eigen::VectorXd::Unit(tested.low.size(), index));

@@ -42,11 +42,7 @@ bool matters(const Model& model, const IceParameter& parameter) {
       parameter.scale * (parameter.start + 0.1 * parameter.scale > parameter.high ? -0.1 : 0.1);
   try {
     const Model moved = with_parameters(model, {parameter}, {parameter.start + step});
-    return moved.ice->hash() != model.ice->hash() || !(moved.sources == model.sources) ||
-           moved.detector->hash() != model.detector->hash() ||
-           moved.acceptance.angular.coefficients() != model.acceptance.angular.coefficients() ||
-           moved.acceptance.cable_radius != model.acceptance.cable_radius ||
-           moved.noise_rate != model.noise_rate;
+    return difference(model, moved) != ModelDifference{};
   } catch (const std::exception&) {
     return false;  // it makes no sense in this model
   }

@@ -29,9 +29,10 @@ AcceptanceChange::AcceptanceChange(const Model& was, const Model& is)
 
 std::optional<AcceptanceChange> AcceptanceChange::between(const Model& was, const Model& is) {
   const auto &a = was.detector->modules(), &b = is.detector->modules();
-  const bool alike = was.ice->hash() == is.ice->hash() && was.sources == is.sources &&
-                     was.acceptance.overall_efficiency == is.acceptance.overall_efficiency &&
-                     was.acceptance.cable_radius == is.acceptance.cable_radius &&
+  Model rest = is;
+  rest.detector = was.detector;
+  rest.acceptance.angular = was.acceptance.angular;
+  const bool alike = difference(was, rest) == ModelDifference{} &&
                      was.acceptance.angular.is_surface() == is.acceptance.angular.is_surface() &&
                      std::ranges::equal(a, b, same_but_for_efficiency);
   if (!alike) return {};

@@ -5,7 +5,6 @@
 namespace floe {
 
 Eigen::VectorXd noise_of_bins(const RunBins& bins, const NoiseWindow& window) {
-  constexpr double seconds_per_nanosecond = 1e-9;
   Eigen::VectorXd noise(bins.size());
   for (const RunBins::Receiver& receiver : bins.receivers()) {
     double begin = window.from;

@@ -29,31 +29,6 @@ IceTables without_weightable(const IceTables& changed, const IceTables& base) {
   return tables;
 }
 
-bool same(const AngularAcceptance& a, const AngularAcceptance& b) {
-  return a.is_surface() == b.is_surface() && a.maximum() == b.maximum() && a.cut() == b.cut() &&
-         a.coefficients() == b.coefficients();
-}
-bool same(const WavelengthSpectrum& a, const WavelengthSpectrum& b) {
-  return std::ranges::equal(a.points(), b.points(), [](const auto& p, const auto& q) {
-    return p.cumulative == q.cumulative && p.wavelength == q.wavelength;
-  });
-}
-bool same(const std::optional<HighQeRatio>& a, const std::optional<HighQeRatio>& b) {
-  if (!a || !b) return !a && !b;
-  return std::ranges::equal(a->points(), b->points(), [](const auto& p, const auto& q) {
-    return p.wavelength == q.wavelength && p.ratio == q.ratio;
-  });
-}
-
-// Modules, how they accept light, and sources: nothing that paths through the ice tell of.
-bool same_surroundings(const Model& a, const Model& b) {
-  return a.detector->hash() == b.detector->hash() && a.sources == b.sources &&
-         a.acceptance.overall_efficiency == b.acceptance.overall_efficiency &&
-         same(a.acceptance.angular, b.acceptance.angular) &&
-         same(a.acceptance.spectrum, b.acceptance.spectrum) &&
-         same(a.acceptance.high_qe, b.acceptance.high_qe);
-}
-
 // Steps without width have no density: there more diffusion or deflection is not a matter of weights.
 bool weightable_birefringence(const IceModel& was, const IceModel& is) {
   const auto& numbers = was.birefringence();
@@ -151,7 +126,9 @@ bool ScoreMap::add_rise(int parameter, const Model& changed, double step) {
 bool ScoreMap::add(int parameter, const Model& changed, double step) {
   const IceModel &was = *model_.ice, &is = *changed.ice;
   if (ice_hash(without_weightable(is.tables(), was.tables())) != was.hash()) return false;
-  if (!same_surroundings(model_, changed) || !weightable_birefringence(was, is)) return false;
+  ModelDifference others = difference(model_, changed);
+  others.ice = false;
+  if (others != ModelDifference{} || !weightable_birefringence(was, is)) return false;
   if (!same_tilt(was.tables(), is.tables()) && !add_rise(parameter, changed, step)) return false;
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const int layer = static_cast<int>(i);

@@ -289,6 +289,11 @@ TEST(ScoreMap, RefusesAnotherAcceptance) {
   EXPECT_FALSE(weightable(base, [](ModelParts& parts) {
     parts.acceptance.high_qe = HighQeRatio({{300, 1.3}, {600, 1.4}});
   }));
+  EXPECT_FALSE(weightable(base, [](ModelParts& parts) { parts.acceptance.cable_radius += step; }));
+}
+
+TEST(ScoreMap, RefusesAnotherNoise) {
+  EXPECT_FALSE(weightable(coloured_parts(), [](ModelParts& parts) { parts.noise_rate += step; }));
 }
 
 TEST(ScoreMap, RefusesOtherSources) {
