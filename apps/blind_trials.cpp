@@ -1,5 +1,6 @@
 // floe blind-trials: would the diagnosis have found it?
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <map>
@@ -46,6 +47,35 @@ std::map<std::string, Tally> tallies_of(const BlindTrials& trials) {
       ++tally.wrong[trial.named];
   }
   return tallies;
+}
+
+std::string all_names(const std::vector<std::string>& names) {
+  return names.empty() ? "nothing" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string hidden_names(const FullTrial& trial) {
+  std::vector<std::string> names;
+  for (const HiddenEffect& hidden : trial.hidden)
+    if (!hidden.text.empty()) names.push_back(hidden.text);
+  return all_names(names);
+}
+
+std::string full_trials(const BlindTrials& trials) {
+  if (trials.full.empty()) return "";
+  TextTable table({"hidden for a whole diagnosis", "verdict", "gap closed", ""});
+  int right = 0, values = 0, within = 0;
+  for (const FullTrial& trial : trials.full) {
+    table.add({hidden_names(trial), all_names(trial.verdict), fmt::format("{:.0f}%", 100 * trial.closed),
+               trial.right() ? "right" : "wrong"});
+    right += trial.right();
+    for (const FullTrial::Value& value : trial.values) {
+      ++values;
+      within += std::abs(value.found - value.hidden) < 2 * value.error;
+    }
+  }
+  std::string text = table.str() + fmt::format("Right: {} of {}.\n", right, trials.full.size());
+  if (values > 0) text += fmt::format("Fitted values within two errors: {} of {}.\n", within, values);
+  return text;
 }
 
 std::string confusion(const BlindTrials& trials) {
@@ -111,6 +141,18 @@ Json trial_json(const BlindTrial& trial) {
           {"right", trial.right()}};
 }
 
+Json full_json(const FullTrial& trial) {
+  Json json = {{"hidden", Json::array()},  {"outside", trial.outside}, {"verdict", trial.verdict},
+               {"groups", trial.groups},   {"values", Json::array()},  {"closed", trial.closed},
+               {"seconds", trial.seconds}, {"right", trial.right()}};
+  for (const HiddenEffect& hidden : trial.hidden)
+    json["hidden"].push_back({{"effect", hidden.effect}, {"text", hidden.text}});
+  for (const FullTrial::Value& value : trial.values)
+    json["values"].push_back(
+        {{"name", value.name}, {"hidden", value.hidden}, {"found", value.found}, {"error", value.error}});
+  return json;
+}
+
 void run_trials(const BlindTrialsCommand& command) {
   BlindTrialOptions options = command.options;
   options.seed = command.run.seed;
@@ -130,9 +172,12 @@ void run_trials(const BlindTrialsCommand& command) {
       {"runs", command.runs},      {"seed", options.seed},           {"alpha", options.alpha},
       {"seconds", trials.seconds}, {"trials", Json::array()},        {"power", power_json(trials)}};
   for (const BlindTrial& trial : trials.trials) result["trials"].push_back(trial_json(trial));
+  result["full"] = Json::array();
+  for (const FullTrial& trial : trials.full) result["full"].push_back(full_json(trial));
   json.write(json_text(result));
   json.commit();
-  if (!command.output.quiet) fmt::print("{}{}{:.0f} s\n", confusion(trials), power(trials), trials.seconds);
+  if (!command.output.quiet)
+    fmt::print("{}{}{}{:.0f} s\n", confusion(trials), power(trials), full_trials(trials), trials.seconds);
 }
 
 }  // namespace
@@ -147,14 +192,19 @@ void add_blind_trials(CLI::App& floe) {
       ->type_name("RUNS.toml")
       ->required();
   add_model_options(app, command->model);
-  add_integer(
-      app, "--trials", 0, 1000, "Trials of each effect",
-      [command = command.get()](std::int64_t number) { command->options.trials = static_cast<int>(number); })
-      ->default_str("3");
-  add_integer(
-      app, "--nothing", 0, 10000, "Trials with nothing missing",
-      [command = command.get()](std::int64_t number) { command->options.nothing = static_cast<int>(number); })
-      ->default_str("20");
+  const auto add_count = [&](const char* name, const char* help, int& number) {
+    add_integer(app, name, 0, 10000, help, [&number](std::int64_t given) {
+      number = static_cast<int>(given);
+    })->default_str(fmt::format("{}", number));
+  };
+  BlindTrialOptions& options = command->options;
+  add_count("--trials", "Trials of each effect", options.trials);
+  add_count("--nothing", "Trials with nothing missing", options.nothing);
+  add_count("--full", "Whole diagnoses of effects that the trials hid, of as many kinds as possible",
+            options.full);
+  add_count("--full-nothing", "Whole diagnoses with nothing missing", options.full_nothing);
+  add_count("--pairs", "Whole diagnoses of two effects hidden together", options.pairs);
+  add_count("--outside", "Whole diagnoses of effects that the catalogue does not have", options.outside);
   add_number(app, "--least", "SIGMA", {0.1, 1000}, "Expected significance of what is hidden, at least",
              command->options.least);
   add_number(app, "--most", "SIGMA", {0.1, 1000}, "Expected significance of what is hidden, at most",
@@ -168,7 +218,9 @@ void add_blind_trials(CLI::App& floe) {
   app.footer(
       "Examples:\n"
       "  floe blind-trials runs.toml --trials 1 --nothing 5\n"
-      "  floe blind-trials runs.toml --ice my-ice --least 3 --most 8 --json trials.json");
+      "  floe blind-trials runs.toml --ice my-ice --least 3 --most 8 --json trials.json\n"
+      "  floe blind-trials runs.toml --full 5 --pairs 2 --outside 4\n"
+      "A whole diagnosis takes as long as floe diagnose does.");
   app.callback([command] { run_trials(*command); });
 }
 

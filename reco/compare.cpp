@@ -24,7 +24,7 @@ Progress part(const Progress& progress, double from, double to, const std::strin
 // Both fits with the same number of photons and the same random numbers, again and again.
 void measure(const std::array<SimulatedLight*, 2>& light, const EventData& data, const FitOptions& options,
              ModelComparison& result) {
-  const double photons = useful_photons(*light[0], result.fits[0].cascade, data.repeats(), options.oversize,
+  const double photons = useful_photons(*light[0], result.fits[0].cascade, data, options.oversize,
                                         options.effort, {3, 4e6, 1.2e7});
   std::array<Evaluation, 2> values;
   for (std::size_t i = 0; i < 2; ++i) {

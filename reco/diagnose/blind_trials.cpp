@@ -5,18 +5,21 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
+#include <optional>
 #include <random>
 
 #include "data/base/error.h"
+#include "reco/diagnose/outside_effects.h"
 #include "reco/diagnose/score_test.h"
 
 namespace floe {
 
 namespace {
 
-constexpr std::size_t largest_group = 3;
 // Far from the streams of surveys.
-constexpr std::uint64_t data_stream = std::uint64_t{1} << 46, trial_stream = std::uint64_t{1} << 47;
+constexpr std::uint64_t data_stream = std::uint64_t{1} << 46, trial_stream = std::uint64_t{1} << 47,
+                        full_stream = std::uint64_t{1} << 48, outside_stream = std::uint64_t{1} << 49;
 
 RunRequest request_of(const FlasherRun& run, const RunSettings& settings, std::uint64_t stream) {
   return {run, run.photons, settings.oversize, settings.seed, stream, settings.threads};
@@ -29,7 +32,7 @@ class Trials {
       : base_(base), runs_(runs), options_(options), progress_(progress), random_(options.seed) {}
 
   BlindTrials run() {
-    FlasherData data = light_of_base();
+    FlasherData data = data_of(light_of(base_, data_stream));
     const FirstLook look = look_first(
         base_,
         [this](std::size_t r, double photons) {
@@ -49,30 +52,166 @@ class Trials {
     const ScoreTester tester(survey, suspects, plan.parameters, options_.draws, options_.seed);
 
     result_.power = power(tester);
-    const std::vector<HiddenEffect> hidden = draw_hidden(tester);
-    for (std::size_t t = 0; t < hidden.size(); ++t) {
-      if (progress_)
-        progress_(0.3 + 0.7 * static_cast<double>(t) / static_cast<double>(hidden.size()),
-                  fmt::format("trial {} of {}", t + 1, hidden.size()));
-      result_.trials.push_back(trial(hidden[t], models_[t], t, survey, tester));
+    const std::vector<Hidden> hidden = draw_hidden(tester);
+    const std::vector<Full> full = plan_full(hidden, survey);
+    // A whole diagnosis takes as long as many tests of scores.
+    done_ = 0, all_ = static_cast<double>(hidden.size()) + per_full * static_cast<double>(full.size());
+    for (std::size_t t = 0; t < hidden.size(); ++t, ++done_) {
+      report(0, fmt::format("trial {} of {}", t + 1, hidden.size()));
+      result_.trials.push_back(trial(hidden[t], t, survey, tester));
     }
+    for (std::size_t t = 0; t < full.size(); ++t, done_ += per_full)
+      result_.full.push_back(diagnosed(full[t], t, full.size(), survey));
     return std::move(result_);
   }
 
  private:
-  FlasherData light_of_base() const {
+  struct Hidden {
+    HiddenEffect effect;
+    std::vector<IceParameter> parameters;
+    std::vector<double> numbers;
+    Model model;
+  };
+  // What a whole diagnosis is given.
+  struct Full {
+    std::vector<HiddenEffect> hidden;
+    Model model;
+    std::optional<FlasherData> outside;  // light with what no model has
+  };
+  static constexpr double per_full = 60;  // in fast trials
+
+  void report(double share_of_full, const std::string& text) const {
+    if (progress_) progress_(0.3 + 0.7 * (done_ + share_of_full * per_full) / all_, text);
+  }
+
+  // By run. `survey`: whose runs say when noise is taken, once there is one.
+  using Light = std::vector<std::vector<SimulatedHit>>;
+  Light light_of(const Model& model, std::uint64_t stream, const Survey* survey = nullptr) const {
+    Light light;
+    for (std::size_t r = 0; r < runs_.size(); ++r) {
+      RunRequest request = request_of(runs_[r], options_, stream + r);
+      if (survey) request.noise = noise_window(survey->runs[r].data, request.photons);
+      light.push_back(simulate_run(model, request).hits);
+    }
+    return light;
+  }
+
+  FlasherData data_of(const Light& light) const {
     std::vector<Event> events;
     for (std::size_t r = 0; r < runs_.size(); ++r) {
       Event event;
       event.id = fmt::format("{},{}", runs_[r].module.string, runs_[r].module.dom);
       event.flasher = runs_[r];
       event.flasher->oversize = options_.oversize;
-      for (const SimulatedHit& hit :
-           simulate_run(base_, request_of(runs_[r], options_, data_stream + r)).hits)
-        event.hits.push_back(to_hit(hit, *base_.detector));
+      for (const SimulatedHit& hit : light[r]) event.hits.push_back(to_hit(hit, *base_.detector));
       events.push_back(std::move(event));
     }
     return flasher_data(*base_.detector, events);
+  }
+
+  static SurveyCounts counts_of(const Light& light, const Survey& survey) {
+    SurveyCounts counts = measured_counts(survey);
+    for (std::size_t r = 0; r < survey.runs.size(); ++r) {
+      counts[r].data.setZero();
+      for (const SimulatedHit& hit : light[r])
+        if (const int bin = survey.runs[r].bins.bin(hit.module, hit.time); bin >= 0) counts[r].data(bin) += 1;
+    }
+    return counts;
+  }
+
+  // Effects in turn, so that few of them are of many kinds.
+  std::vector<Full> plan_full(const std::vector<Hidden>& hidden, const Survey& survey) {
+    std::vector<const Hidden*> effects;
+    for (const Hidden& h : hidden)
+      if (!h.effect.effect.empty()) effects.push_back(&h);
+    std::shuffle(effects.begin(), effects.end(), random_);
+    std::map<std::string, int> seen;
+    std::map<const Hidden*, int> turn;
+    for (const Hidden* h : effects) turn[h] = seen[h->effect.effect]++;
+    std::stable_sort(effects.begin(), effects.end(),
+                     [&](const Hidden* a, const Hidden* b) { return turn[a] < turn[b]; });
+    std::vector<Full> plan;
+    for (int t = 0; t < options_.full && t < static_cast<int>(effects.size()); ++t) {
+      const Hidden& h = *effects[static_cast<std::size_t>(t)];
+      plan.push_back({{h.effect}, h.model, {}});
+    }
+    for (int t = 0; t < options_.full_nothing; ++t) plan.push_back({{{}}, base_, {}});
+    for (int t = 0; t < options_.pairs; ++t)
+      if (auto pair = draw_pair(effects)) plan.push_back(std::move(*pair));
+    const Goodness goodness(survey, options_);
+    for (int t = 0; t < options_.outside; ++t)
+      if (auto outside = draw_outside(t, survey, goodness)) plan.push_back(std::move(*outside));
+    return plan;
+  }
+
+  // How far -ln L of all runs is above what it would be on average if nothing were missing, in units of its
+  // scatter.
+  class Goodness {
+   public:
+    Goodness(const Survey& survey, const BlindTrialOptions& options) : survey_(survey) {
+      double squares = 0;
+      for (int draw = 0; draw < options.draws; ++draw) {
+        const double value = sum(drawn_counts(survey, options.seed, static_cast<std::uint64_t>(draw)));
+        mean_ += value / options.draws, squares += value * value / options.draws;
+      }
+      scatter_ = std::sqrt(std::max(1e-9, squares - mean_ * mean_));
+    }
+    double operator()(const SurveyCounts& counts) const { return (sum(counts) - mean_) / scatter_; }
+
+   private:
+    double sum(const SurveyCounts& counts) const {
+      const std::vector<double> values = neg_llh_of(survey_, counts);
+      return std::accumulate(values.begin(), values.end(), 0.0);
+    }
+    const Survey& survey_;
+    double mean_ = 0, scatter_ = 1;
+  };
+
+  // As visible as other effects have to be.
+  std::optional<Full> draw_outside(int number, const Survey& survey, const Goodness& goodness) {
+    constexpr int tries = 10;
+    for (int i = 0; i < tries; ++i) {
+      const OutsideEffect outside = draw_outside_effect(number, *base_.detector, runs_, random_);
+      Light light =
+          light_of(base_, outside_stream + static_cast<std::uint64_t>(number) * runs_.size(), &survey);
+      for (std::size_t r = 0; r < runs_.size(); ++r) outside.apply(light[r], runs_[r], random_);
+      const double significance = goodness(counts_of(light, survey));
+      if (significance > options_.least)
+        return Full{{{outside.name, outside.text, {}, significance}}, base_, data_of(light)};
+      result_.not_tried[outside.name] =
+          fmt::format("not seen at {} standard deviations: {}", options_.least, outside.text);
+    }
+    return {};
+  }
+
+  // The second is applied to what the first leaves.
+  std::optional<Full> draw_pair(const std::vector<const Hidden*>& effects) {
+    constexpr int tries = 100;
+    for (int i = 0; i < tries && effects.size() > 1; ++i) {
+      std::uniform_int_distribution<std::size_t> any(0, effects.size() - 1);
+      const Hidden &a = *effects[any(random_)], &b = *effects[any(random_)];
+      if (a.effect.effect == b.effect.effect) continue;
+      try {
+        return Full{{a.effect, b.effect}, with_parameters(a.model, b.parameters, b.numbers), {}};
+      } catch (const Error&) {
+        // Together they make no physical ice: another pair.
+      }
+    }
+    return {};
+  }
+
+  FullTrial diagnosed(const Full& full, std::size_t number, std::size_t count, const Survey& survey) {
+    const FlasherData data =
+        full.outside ? *full.outside
+                     : data_of(light_of(full.model, full_stream + number * runs_.size(), &survey));
+    DiagnosisOptions options;
+    static_cast<RunSettings&>(options) = options_;
+    options.alpha = options_.alpha, options.floor = options_.floor, options.draws = options_.draws;
+    options.folds = std::min(options_.folds, static_cast<int>(runs_.size()));
+    return full_trial(base_, full.hidden, full.outside.has_value(), data, options,
+                      [&](double fraction, const std::string& text) {
+                        report(fraction, fmt::format("diagnosis {} of {}: {}", number + 1, count, text));
+                      });
   }
 
   // What changes with the suspect's amplitudes: all parameters but the place of a band.
@@ -114,27 +253,20 @@ class Trials {
   }
 
   // Of each effect some, at places drawn at random, as strong as wanted and as its parameters allow.
-  std::vector<HiddenEffect> draw_hidden(const ScoreTester& tester) {
+  std::vector<Hidden> draw_hidden(const ScoreTester& tester) {
     std::map<std::string, std::vector<const TestedSuspect*>> by_effect;
     for (const TestedSuspect& suspect : tester.suspects())
       by_effect[suspect.suspect->effect].push_back(&suspect);
-    std::vector<HiddenEffect> all;
+    std::vector<Hidden> all;
     for (const auto& [effect, places] : by_effect)
       for (int t = 0; t < options_.trials; ++t) {
-        HiddenEffect hidden;
-        Model model;
-        if (hide(places, hidden, model)) {
-          all.push_back(std::move(hidden));
-          models_.push_back(std::move(model));
-        } else {
+        if (auto hidden = hide(places))
+          all.push_back(std::move(*hidden));
+        else
           result_.not_tried[effect] =
               fmt::format("these runs do not show it at {} standard deviations", options_.least);
-        }
       }
-    for (int t = 0; t < options_.nothing; ++t) {
-      all.emplace_back();
-      models_.push_back(base_);
-    }
+    for (int t = 0; t < options_.nothing; ++t) all.push_back({{}, {}, {}, base_});
     return all;
   }
 
@@ -142,7 +274,7 @@ class Trials {
     return std::uniform_real_distribution<double>(low, high)(random_);
   }
 
-  bool hide(const std::vector<const TestedSuspect*>& places, HiddenEffect& hidden, Model& model) {
+  std::optional<Hidden> hide(const std::vector<const TestedSuspect*>& places) {
     constexpr int tries = 40;
     for (int i = 0; i < tries; ++i) {
       const auto index = std::uniform_int_distribution<std::size_t>(0, places.size() - 1)(random_);
@@ -156,21 +288,21 @@ class Trials {
       if (((amplitudes - place.low).array() < 0).any() || ((place.high - amplitudes).array() < 0).any())
         continue;
       try {
-        const auto parameters = fit_parameters(*place.suspect, amplitudes, base_);
-        if (!reaches(place, parameters, amplitudes)) continue;
-        std::vector<double> numbers;
-        hidden = {place.suspect->effect, text_of(*place.suspect), {}, wanted};
-        for (const IceParameter& p : parameters) {
-          numbers.push_back(p.start);
-          hidden.values.emplace_back(p.name, p.start);
+        Hidden hidden;
+        hidden.parameters = fit_parameters(*place.suspect, amplitudes, base_);
+        if (!reaches(place, hidden.parameters, amplitudes)) continue;
+        hidden.effect = {place.suspect->effect, text_of(*place.suspect), {}, wanted};
+        for (const IceParameter& p : hidden.parameters) {
+          hidden.numbers.push_back(p.start);
+          hidden.effect.values.emplace_back(p.name, p.start);
         }
-        model = with_parameters(base_, parameters, numbers);
-        return true;
+        hidden.model = with_parameters(base_, hidden.parameters, hidden.numbers);
+        return hidden;
       } catch (const Error&) {
         // No physical ice: another draw.
       }
     }
-    return false;
+    return {};
   }
 
   // Parameters may be cut off at what makes sense.
@@ -185,28 +317,20 @@ class Trials {
     return true;
   }
 
-  BlindTrial trial(const HiddenEffect& hidden, const Model& model, std::size_t number, const Survey& survey,
+  BlindTrial trial(const Hidden& hidden, std::size_t number, const Survey& survey,
                    const ScoreTester& tester) const {
-    SurveyCounts counts = measured_counts(survey);
-    for (std::size_t r = 0; r < survey.runs.size(); ++r) {
-      const RunData& data = survey.runs[r].data;
-      RunRequest request = request_of(data.run, options_, trial_stream + number * survey.runs.size() + r);
-      request.noise = noise_window(data, request.photons);
-      const SimulatedRun light = simulate_run(model, request);
-      counts[r].data.setZero();
-      for (const SimulatedHit& hit : light.hits)
-        if (const int bin = survey.runs[r].bins.bin(hit.module, hit.time); bin >= 0) counts[r].data(bin) += 1;
-    }
+    const SurveyCounts counts =
+        counts_of(light_of(hidden.model, trial_stream + number * runs_.size(), &survey), survey);
     const ScoreTest test = tester.test(counts, options_.floor);
     BlindTrial trial;
-    trial.hidden = hidden;
+    trial.hidden = hidden.effect;
     trial.p_value = test.p_value;
     if (test.effects.empty() || test.p_value >= options_.alpha) return trial;
     const EffectScore& first = test.effects.front();
     trial.named = first.best.suspect.effect;
     trial.named_text = text_of(first.best.suspect);
     trial.significance = sigmas_of(first.ln_p);
-    if (trial.named_text == hidden.text && !first.best.suspect.place.count("depth"))
+    if (trial.named_text == hidden.effect.text && !first.best.suspect.place.count("depth"))
       tell_values(first.best, trial);
     for (const EffectScore& effect : test.effects)
       if (&effect == &first || effect.likeness > inseparable)
@@ -228,8 +352,8 @@ class Trials {
   const BlindTrialOptions& options_;
   const Progress& progress_;
   std::mt19937_64 random_;
-  std::vector<Model> models_;
   BlindTrials result_;
+  double done_ = 0, all_ = 1;  // in fast trials, for the progress bar
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
-// Blind trials of the diagnosis, in a fast form: an effect is drawn at random in kind, place and strength,
-// light is simulated with it, and the score test is asked what is missing. All trials share one survey of the
-// base.
+// Blind trials of the diagnosis: an effect is drawn at random in kind, place and strength, light is simulated
+// with it, and the diagnosis is asked what is missing. In the fast form that is the score test, and all
+// trials share one survey of the base; in full it is everything (full_trials.h).
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 #include "data/base/progress.h"
 #include "data/flasher_run.h"
 #include "propagation/model.h"
-#include "reco/diagnose/suspects.h"
+#include "reco/diagnose/full_trials.h"
 #include "reco/ice_fit/run_plan.h"
 
 namespace floe {
@@ -20,18 +20,16 @@ namespace floe {
 struct BlindTrialOptions : RunSettings {
   int trials = 3;               // of each effect
   int nothing = 20;             // trials with nothing missing
+  int full = 0;                 // of the effects hidden, so many are hidden again for the whole diagnosis
+  int full_nothing = 0;         // whole diagnoses with nothing missing
+  int pairs = 0;                // whole diagnoses of two effects hidden together
+  int outside = 0;              // and of what the catalogue does not have (outside_effects.h)
+  int folds = 3;                // of whole diagnoses
   double least = 5, most = 12;  // expected significance of what is hidden, in standard deviations
   double alpha = 0.01, floor = 0.005;
   int draws = 300;
   // Of the survey (see PairPlan): it serves all trials, so that its slopes may be good.
   double pair_light = 2;
-};
-
-// What a trial hides; nothing when `effect` is empty.
-struct HiddenEffect {
-  std::string effect, text;
-  std::vector<std::pair<std::string, double>> values;  // names of parameters
-  double significance = 0;                             // expected
 };
 
 struct BlindTrial {
@@ -55,6 +53,7 @@ struct SeenAbove {
 
 struct BlindTrials {
   std::vector<BlindTrial> trials;
+  std::vector<FullTrial> full;
   std::vector<SeenAbove> power;
   std::map<std::string, std::string> not_tried;  // effects that no light of these runs shows, and why
   double seconds = 0;

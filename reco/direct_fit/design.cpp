@@ -63,10 +63,13 @@ std::vector<LightRequest> design_requests(const LocalFrame& frame, const Stage& 
   return requests;
 }
 
-double useful_photons(ExpectationModel& light, const CascadeParameters& cascade, double repeats,
+double useful_photons(ExpectationModel& light, const CascadeParameters& cascade, const EventData& data,
                       double oversize, double effort, const PhotonNeed& need) {
-  const double one = light.photons_per_cascade(cascade, oversize) * repeats;
-  return effort * std::clamp(need.events * one, need.least, need.most);
+  constexpr double dimmest = 4;
+  const double one = light.photons_per_cascade(cascade, oversize) * data.repeats();
+  const double hits_of_one = std::max(1.0, data.charge());
+  const double dim = std::clamp(need.hits / (need.events * hits_of_one), 1.0, dimmest);
+  return effort * std::clamp(dim * need.events * one, need.least, dim * need.most);
 }
 
 double training_oversize(double oversize) {

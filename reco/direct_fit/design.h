@@ -8,6 +8,7 @@
 #include "reco/direct_fit/expectation_model.h"
 #include "reco/direct_fit/local_frame.h"
 #include "reco/direct_fit/poisson_regression.h"
+#include "reco/event_data.h"
 
 namespace floe {
 
@@ -29,11 +30,13 @@ std::vector<LightRequest> design_requests(const LocalFrame& frame, const Stage& 
                                           std::uint64_t seed, std::uint64_t draw, std::uint64_t first_stream);
 
 // Photons that are worth simulating for a cascade: those of `events` repetitions of the measured light, but
-// not less or more than that; `effort` multiplies them.
+// not less or more than that; `effort` multiplies them. Where modules see few of many photons, as in a layer
+// of dust, there are up to four times as many, `most` too, until they make `hits` of the measured light.
 struct PhotonNeed {
   double events = 3, least = 1e6, most = 1e7;
+  double hits = 2500;
 };
-double useful_photons(ExpectationModel& light, const CascadeParameters& cascade, double repeats,
+double useful_photons(ExpectationModel& light, const CascadeParameters& cascade, const EventData& data,
                       double oversize, double effort, const PhotonNeed& need);
 
 // The oversize of simulations that teach weights and slopes, which need many counts more than they need

@@ -57,7 +57,7 @@ class BoundSimulations {
 
  private:
   double photons(double oversize, const PhotonNeed& need) {
-    return useful_photons(light_, truth_, measured_.repeats(), oversize, options_.effort, need);
+    return useful_photons(light_, truth_, measured_, oversize, options_.effort, need);
   }
 
   void simulate(const Stage& stage, std::vector<const LightSample*>& samples) {

@@ -44,7 +44,7 @@ Search::Search(ExpectationModel& light, const EventData& data, const MeanIce& ic
     : light_(light), data_(data), ice_(ice), options_(options), result_(result), progress_(progress) {}
 
 double Search::photons_for(const CascadeParameters& cascade, double oversize, const PhotonNeed& need) {
-  return useful_photons(light_, cascade, data_.repeats(), oversize, options_.effort, need);
+  return useful_photons(light_, cascade, data_, oversize, options_.effort, need);
 }
 
 void Search::report(double within_round, const std::string& what) {

@@ -17,6 +17,8 @@ const std::vector<FigureMaker>& paper_figures() {
       {"light-curves", "Arrival times along the flow and across it", light_curves_figure},
       {"llh-space", "Likelihood of a layer's flashers over birefringence and scattering", llh_space_figure},
       {"stratigraphy", "Ice of several layers fitted to four flashers", stratigraphy_figure},
+      {"diffusion", "Where light goes in a metre of grains, against its angle to the flow", diffusion_figure},
+      {"events", "Five cascades fitted with and without birefringence", events_figure},
   };
   return all;
 }

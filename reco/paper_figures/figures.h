@@ -10,5 +10,7 @@ PaperFigure azimuth_figure(const FigureSettings& settings, const Progress& progr
 PaperFigure light_curves_figure(const FigureSettings& settings, const Progress& progress);
 PaperFigure llh_space_figure(const FigureSettings& settings, const Progress& progress);
 PaperFigure stratigraphy_figure(const FigureSettings& settings, const Progress& progress);
+PaperFigure diffusion_figure(const FigureSettings& settings, const Progress& progress);
+PaperFigure events_figure(const FigureSettings& settings, const Progress& progress);
 
 }  // namespace floe

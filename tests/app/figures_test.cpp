@@ -84,6 +84,19 @@ TEST_F(Figures, OfLightCurvesHaveACurveForEachDescription) {
   EXPECT_NE(text_of("stretched/light-curves.svg").find("scattering anisotropy"), std::string::npos);
 }
 
+TEST_F(Figures, OfDiffusionHaveTheTwelveNumbers) {
+  floe_well("figures --only diffusion --quiet -o made");
+  const Json figure = json_of("made/figures.json")["figures"][0];
+  ASSERT_EQ(figure["numbers"].size(), 12U);
+  // 1000 grains of 1 mm widen light by a few degrees.
+  const Number width = number_of(figure, "sigma_x", "A");
+  EXPECT_GT(width.value, 0.05);
+  EXPECT_LT(width.value, 0.15);
+  const std::string table = text_of("made/diffusion.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 19);
+  EXPECT_NE(text_of("made/diffusion.svg").find("elongation 1.4"), std::string::npos);
+}
+
 TEST_F(Figures, DoNotDependOnThreads) {
   floe_well("figures --only light-curves --photons 1e8 --quiet --threads 1 -o one");
   floe_well("figures --only light-curves --photons 1e8 --quiet --threads 3 -o three");

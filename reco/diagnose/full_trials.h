@@ -1,0 +1,47 @@
+// Trials of the whole diagnosis: light with something hidden in it goes through everything that measured
+// light goes through.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "data/base/progress.h"
+#include "reco/diagnose/diagnosis.h"
+
+namespace floe {
+
+// What a trial hides; nothing when `effect` is empty.
+struct HiddenEffect {
+  std::string effect, text;
+  std::vector<std::pair<std::string, double>> values;  // names of parameters
+  double significance = 0;                             // expected; 0: not known
+};
+
+struct FullTrial {
+  std::vector<HiddenEffect> hidden;              // one; two of a pair
+  bool outside = false;                          // of the catalogue
+  std::vector<std::string> verdict;              // as in result.json
+  std::vector<std::vector<std::string>> groups;  // of each effect named, itself first
+  // Of hidden effects that were named, where both speak of the same parameter.
+  struct Value {
+    std::string name;
+    double hidden = 0, found = 0, error = 0;
+  };
+  std::vector<Value> values;
+  double closed = 0;  // of the held-out gap
+  double seconds = 0;
+
+  bool names(const HiddenEffect& effect, std::size_t place) const;
+  // The first name is right; of a pair both names are, in any order; what is outside of the catalogue stays
+  // unexplained.
+  bool right() const;
+};
+
+FullTrial full_trial(const Model& base, const std::vector<HiddenEffect>& hidden, bool outside,
+                     const FlasherData& data, const DiagnosisOptions& options, const Progress& progress = {});
+
+// A name is worth nothing in a larger group.
+inline constexpr std::size_t largest_group = 3;
+
+}  // namespace floe
