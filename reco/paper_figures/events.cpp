@@ -25,13 +25,13 @@ Model without_birefringence(const Model& model) {
 
 std::string csv_of(const std::vector<EventErrors>& all) {
   std::string text = "event,fit,angle_deg,distance_m,energy_ratio,delta_neg_llh,delta_neg_llh_error\n";
-  for (std::size_t i = 0; i < all.size(); ++i) {
+  for (const EventErrors& event : all) {
     const auto line = [&](const char* fit, const FitErrors& e, double delta, double error) {
-      text += fmt::format("{},{},{:.3f},{:.3f},{:.4f},{:.2f},{:.2f}\n", i + 1, fit, e.angle / degree,
+      text += fmt::format("{},{},{:.3f},{:.3f},{:.4f},{:.2f},{:.2f}\n", event.number, fit, e.angle / degree,
                           e.distance, e.energy_ratio, delta, error);
     };
-    line("with", all[i].with, 0, 0);
-    line("without", all[i].without, all[i].delta_neg_llh, all[i].delta_neg_llh_error);
+    line("with", event.with, 0, 0);
+    line("without", event.without, event.delta_neg_llh, event.delta_neg_llh_error);
   }
   return text;
 }
@@ -91,7 +91,7 @@ PaperFigure events_figure(const FigureSettings& settings, const Progress& progre
                                            fitted(row.fit) ? row.other->reason : row.fit.reason));
       continue;
     }
-    all.push_back({errors_of(row.fit, row.truth), errors_of(*row.other, row.truth), row.delta_neg_llh,
+    all.push_back({i + 1, errors_of(row.fit, row.truth), errors_of(*row.other, row.truth), row.delta_neg_llh,
                    row.delta_neg_llh_error});
   }
   if (all.empty()) throw NoResult("no cascade could be fitted both with and without birefringence");

@@ -83,7 +83,7 @@ std::string events_picture(const std::vector<EventErrors>& events, const std::st
   svg.text({left + 218, 66}, "fitted without; dashed: a perfect fit", 13);
   for (std::size_t i = 0; i < events.size(); ++i)
     svg.text({left - 12, top + row_height * (static_cast<double>(i) + 0.5) + 4},
-             fmt::format("event {}", i + 1), 13, Anchor::end);
+             fmt::format("event {}", events[i].number), 13, Anchor::end);
   double x = left;
   for (const EventPanel& panel : panels) {
     draw_panel(svg, x, panel);

@@ -12,6 +12,7 @@ struct FitErrors {
 };
 
 struct EventErrors {
+  int number = 1;
   FitErrors with, without;                            // birefringence
   double delta_neg_llh = 0, delta_neg_llh_error = 0;  // without - with
 };
