@@ -257,18 +257,27 @@ Search::End Search::better_of(const RoundEnd& first, const RoundEnd& second) {
   ends[1] = finish(sharpen_within_minimum(second), &ends[0]);
   if (same_minimum(ends[0].light, ends[1].light)) return ends[ends[0].unsolved && ends[1].converged ? 1 : 0];
 
-  // Wide modules: so many more photons are worth more than what they blur.
-  const double oversize = training_oversize(data_, ends[0].light, options_.oversize);
-  const double photons = photons_for(cascade_of(ends[0].light, options_.kind), oversize, {20, 1e6, 2e7});
-  Evaluation values[2];
-  for (int i = 0; i < 2; ++i) values[i] = measure(ends[i].light, oversize, photons);
-  ++contests_;
-  const int best = values[0].neg_llh <= values[1].neg_llh ? 0 : 1;
-  const Difference worse = difference(values[1 - best], values[best]);
-  if (worse.value < competing + competing_errors * worse.error)
-    result_.other_minimum =
-        OtherMinimum{cascade_of(ends[1 - best].light, options_.kind), worse.value, worse.error};
+  const Difference worse = how_much_worse(ends[1].light, ends[0].light);
+  const int best = worse.value >= 0 ? 0 : 1;
+  const double value = std::abs(worse.value);
+  if (value < competing + competing_errors * worse.error)
+    result_.other_minimum = OtherMinimum{cascade_of(ends[1 - best].light, options_.kind), value, worse.error};
   return ends[best];
+}
+
+// Modules of the wanted size decide where their noise lets them: minima that mirror each other about a string
+// differ by what wide modules blur. Else wide ones do, with so many more photons.
+Difference Search::how_much_worse(const LightCentre& one, const LightCentre& other) {
+  constexpr double clear = 2, well_known = 4;  // errors; units of -ln L
+  const auto compare = [&](double oversize, const PhotonNeed& need) {
+    const double photons = photons_for(cascade_of(other, options_.kind), oversize, need);
+    const Evaluation first = measure(one, oversize, photons), second = measure(other, oversize, photons);
+    ++contests_;
+    return difference(first, second);
+  };
+  const Difference narrow = compare(options_.oversize, {25, 4e6, 1.5e7});
+  if (std::abs(narrow.value) > clear * narrow.error || narrow.error < well_known) return narrow;
+  return compare(training_oversize(data_, other, options_.oversize), {20, 1e6, 2e7});
 }
 
 }  // namespace floe

@@ -102,6 +102,8 @@ class Search {
   std::vector<Minimum> contest(std::span<const RoundEnd> ends, const PhotonNeed& need, double slack);
   End from_starts(std::span<const LightCentre> starts);
   End better_of(const RoundEnd& first, const RoundEnd& second);
+  // In -ln L, from equal simulations of both.
+  Difference how_much_worse(const LightCentre& one, const LightCentre& other);
   Stage rough_stage(const LightCentre& light);
   void report(double within_round, const std::string& what);
 
