@@ -192,19 +192,20 @@ void add_blind_trials(CLI::App& floe) {
       ->type_name("RUNS.toml")
       ->required();
   add_model_options(app, command->model);
-  const auto add_count = [&](const char* name, const char* help, int& number) {
-    add_integer(app, name, 0, 10000, help, [&number](std::int64_t given) {
+  const auto add_count = [&](const char* name, int most, const char* help, int& number) {
+    add_integer(app, name, 0, most, help, [&number](std::int64_t given) {
       number = static_cast<int>(given);
     })->default_str(fmt::format("{}", number));
   };
   BlindTrialOptions& options = command->options;
-  add_count("--trials", "Trials of each effect", options.trials);
-  add_count("--nothing", "Trials with nothing missing", options.nothing);
-  add_count("--full", "Whole diagnoses of effects that the trials hid, of as many kinds as possible",
+  add_count("--trials", 1000, "Trials of each effect", options.trials);
+  add_count("--nothing", 10000, "Trials with nothing missing", options.nothing);
+  add_count("--full", 10000, "Whole diagnoses of effects that the trials hid, of as many kinds as possible",
             options.full);
-  add_count("--full-nothing", "Whole diagnoses with nothing missing", options.full_nothing);
-  add_count("--pairs", "Whole diagnoses of two effects hidden together", options.pairs);
-  add_count("--outside", "Whole diagnoses of effects that the catalogue does not have", options.outside);
+  add_count("--full-nothing", 10000, "Whole diagnoses with nothing missing", options.full_nothing);
+  add_count("--pairs", 10000, "Whole diagnoses of two effects hidden together", options.pairs);
+  add_count("--outside", 10000, "Whole diagnoses of effects that the catalogue does not have",
+            options.outside);
   add_number(app, "--least", "SIGMA", {0.1, 1000}, "Expected significance of what is hidden, at least",
              command->options.least);
   add_number(app, "--most", "SIGMA", {0.1, 1000}, "Expected significance of what is hidden, at most",

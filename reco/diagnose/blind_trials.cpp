@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <random>
 
 #include "data/base/error.h"
+#include "reco/diagnose/goodness.h"
 #include "reco/diagnose/outside_effects.h"
 #include "reco/diagnose/score_test.h"
 
@@ -138,44 +138,24 @@ class Trials {
     for (int t = 0; t < options_.full_nothing; ++t) plan.push_back({{{}}, base_, {}});
     for (int t = 0; t < options_.pairs; ++t)
       if (auto pair = draw_pair(effects)) plan.push_back(std::move(*pair));
-    const Goodness goodness(survey, options_);
+    if (options_.outside == 0) return plan;
+    const ExpectedFit right = expected_fit(survey, options_.draws, options_.seed);
     for (int t = 0; t < options_.outside; ++t)
-      if (auto outside = draw_outside(t, survey, goodness)) plan.push_back(std::move(*outside));
+      if (auto outside = draw_outside(t, survey, right)) plan.push_back(std::move(*outside));
     return plan;
   }
 
-  // How far -ln L of all runs is above what it would be on average if nothing were missing, in units of its
-  // scatter.
-  class Goodness {
-   public:
-    Goodness(const Survey& survey, const BlindTrialOptions& options) : survey_(survey) {
-      double squares = 0;
-      for (int draw = 0; draw < options.draws; ++draw) {
-        const double value = sum(drawn_counts(survey, options.seed, static_cast<std::uint64_t>(draw)));
-        mean_ += value / options.draws, squares += value * value / options.draws;
-      }
-      scatter_ = std::sqrt(std::max(1e-9, squares - mean_ * mean_));
-    }
-    double operator()(const SurveyCounts& counts) const { return (sum(counts) - mean_) / scatter_; }
-
-   private:
-    double sum(const SurveyCounts& counts) const {
-      const std::vector<double> values = neg_llh_of(survey_, counts);
-      return std::accumulate(values.begin(), values.end(), 0.0);
-    }
-    const Survey& survey_;
-    double mean_ = 0, scatter_ = 1;
-  };
-
   // As visible as other effects have to be.
-  std::optional<Full> draw_outside(int number, const Survey& survey, const Goodness& goodness) {
+  std::optional<Full> draw_outside(int number, const Survey& survey, const ExpectedFit& right) {
     constexpr int tries = 10;
+    const Light whole =
+        light_of(base_, outside_stream + static_cast<std::uint64_t>(number) * runs_.size(), &survey);
     for (int i = 0; i < tries; ++i) {
       const OutsideEffect outside = draw_outside_effect(number, *base_.detector, runs_, random_);
-      Light light =
-          light_of(base_, outside_stream + static_cast<std::uint64_t>(number) * runs_.size(), &survey);
+      Light light = whole;
       for (std::size_t r = 0; r < runs_.size(); ++r) outside.apply(light[r], runs_[r], random_);
-      const double significance = goodness(counts_of(light, survey));
+      const double significance =
+          (total_neg_llh(survey, counts_of(light, survey)) - right.mean) / right.scatter;
       if (significance > options_.least)
         return Full{{{outside.name, outside.text, {}, significance}}, base_, data_of(light)};
       result_.not_tried[outside.name] =
@@ -360,8 +340,7 @@ class Trials {
 
 bool BlindTrial::right() const {
   if (hidden.effect.empty()) return named.empty();
-  return named == hidden.effect || (group.size() <= largest_group &&
-                                    std::find(group.begin(), group.end(), hidden.effect) != group.end());
+  return names(named, group, hidden.effect);
 }
 
 BlindTrials run_blind_trials(const Model& base, const std::vector<FlasherRun>& runs,

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numeric>
 
 #include "data/base/error.h"
+#include "reco/diagnose/goodness.h"
 #include "reco/ice_fit/model_judge.h"
 
 namespace floe {
@@ -114,20 +114,10 @@ class Diagnoser {
   }
 
   void goodness(const Survey& survey, DiagnosisStep& now) const {
-    const auto sum = [](const std::vector<double>& values) {
-      return std::accumulate(values.begin(), values.end(), 0.0);
-    };
-    now.neg_llh = sum(neg_llh_of(survey, measured_counts(survey)));
-    double squares = 0;
-    std::vector<double> drawn(static_cast<std::size_t>(options_.draws));
-#pragma omp parallel for
-    for (int d = 0; d < options_.draws; ++d)
-      drawn[static_cast<std::size_t>(d)] =
-          sum(neg_llh_of(survey, drawn_counts(survey, options_.seed,
-                                              (std::uint64_t{1} << 33) + static_cast<std::uint64_t>(d))));
-    for (const double value : drawn) now.expected += value / options_.draws;
-    for (const double value : drawn) squares += std::pow(value - now.expected, 2);
-    now.scatter = std::sqrt(squares / (options_.draws - 1));
+    now.neg_llh = total_neg_llh(survey, measured_counts(survey));
+    const ExpectedFit right = expected_fit(survey, options_.draws, options_.seed);
+    now.expected = right.mean;
+    now.scatter = right.scatter;
     now.p_of_fit = normal_tail((now.neg_llh - now.expected) / now.scatter);
   }
 
@@ -284,9 +274,7 @@ class Diagnoser {
       mean += weights(i) / weights.sum() * fit.numbers[first + static_cast<std::size_t>(i)];
     return fit.distance(first, std::vector<double>(static_cast<std::size_t>(size), mean));
   }
-  bool is_layered(const NamedEffect& effect) const {
-    return !effect.parameters.front().family.empty();
-  }
+  bool is_layered(const NamedEffect& effect) const { return !effect.parameters.front().family.empty(); }
 
   void take_mean(const Span& span, const IceFit& fit, NamedEffect& effect) const {
     const auto count = static_cast<Eigen::Index>(span.count), first = static_cast<Eigen::Index>(span.first);

@@ -19,11 +19,17 @@ void add_values(const HiddenEffect& hidden, const NamedEffect& named, std::vecto
 
 }  // namespace
 
+bool names(const std::string& named, const std::vector<std::string>& group, const std::string& effect) {
+  constexpr std::size_t largest_group = 3;
+  return named == effect ||
+         (group.size() <= largest_group && std::find(group.begin(), group.end(), effect) != group.end());
+}
+
 bool FullTrial::names(const HiddenEffect& effect, std::size_t place) const {
-  if (place >= verdict.size()) return false;
-  if (verdict[place] == effect.effect) return true;
-  if (place >= groups.size() || groups[place].size() > largest_group) return false;
-  return std::find(groups[place].begin(), groups[place].end(), effect.effect) != groups[place].end();
+  // The last of the verdict may be "unexplained", which has no group.
+  const std::vector<std::string> none;
+  return place < verdict.size() &&
+         floe::names(verdict[place], place < groups.size() ? groups[place] : none, effect.effect);
 }
 
 bool FullTrial::right() const {

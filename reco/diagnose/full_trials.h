@@ -15,8 +15,12 @@ namespace floe {
 struct HiddenEffect {
   std::string effect, text;
   std::vector<std::pair<std::string, double>> values;  // names of parameters
-  double significance = 0;                             // expected; 0: not known
+  double significance = 0;                             // expected
 };
+
+// Whether a name is that effect's, or its group, of at most three, has the effect: a name is worth nothing in
+// a larger one.
+bool names(const std::string& named, const std::vector<std::string>& group, const std::string& effect);
 
 struct FullTrial {
   std::vector<HiddenEffect> hidden;              // one; two of a pair
@@ -40,8 +44,5 @@ struct FullTrial {
 
 FullTrial full_trial(const Model& base, const std::vector<HiddenEffect>& hidden, bool outside,
                      const FlasherData& data, const DiagnosisOptions& options, const Progress& progress = {});
-
-// A name is worth nothing in a larger group.
-inline constexpr std::size_t largest_group = 3;
 
 }  // namespace floe

@@ -47,6 +47,10 @@ enum class FitStatus {
   no_convergence,    // the best point reached is reported
   not_enough_light,  // nothing was fitted: the parameters mean nothing
 };
+// Whether the parameters are a result.
+constexpr bool is_usable(FitStatus status) {
+  return status == FitStatus::ok || status == FitStatus::track_like;
+}
 // "ok", "track_like", "outside", "no_convergence", "not_enough_light".
 std::string name_of(FitStatus status);
 
@@ -107,8 +111,7 @@ struct CascadeFit {
   std::vector<FitRound> rounds;
   std::vector<ArrivalTimes> arrival_times;  // of the 12 brightest modules, brightest first
 
-  // Whether the parameters are a result (ok, track_like).
-  bool usable() const { return status == FitStatus::ok || status == FitStatus::track_like; }
+  bool usable() const { return is_usable(status); }
   // With the angles in degrees, as files have it.
   Matrix7 covariance_in_degrees() const;
   void count_simulation(std::uint64_t propagated) { ++simulations, photons += propagated; }

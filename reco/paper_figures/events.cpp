@@ -1,13 +1,11 @@
 // What birefringence is worth to cascades: five of them, simulated with it, fitted with it and without.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "data/base/error.h"
 #include "data/base/vec3.h"
 #include "reco/paper_figures/events_picture.h"
 #include "reco/paper_figures/figures.h"
-#include "reco/study/study.h"
+#include "reco/study/summary.h"
 
 namespace floe {
 
@@ -15,7 +13,7 @@ namespace {
 
 constexpr int events = 5;
 const StudyGroup group{5e4, events, 20};
-constexpr double effort = 0.25;  // errors of the simulations are small beside what is shown
+constexpr double effort = 0.25;  // few photons, to be quick: differences of ln L are known to about 15
 
 Model without_birefringence(const Model& model) {
   ModelParts parts = parts_of(model);
@@ -39,16 +37,6 @@ std::string csv_of(const std::vector<EventErrors>& all) {
 FitErrors errors_of(const StudyFit& fit, const CascadeParameters& truth) {
   return {angle_between(fit.cascade, truth), (fit.cascade.position - truth.position).norm(),
           fit.cascade.energy / truth.energy};
-}
-
-bool fitted(const StudyFit& fit) {
-  return fit.status == FitStatus::ok || fit.status == FitStatus::track_like;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
 std::vector<FigureNumber> numbers_of(const std::vector<EventErrors>& all) {
@@ -78,7 +66,6 @@ PaperFigure events_figure(const FigureSettings& settings, const Progress& progre
   StudySettings study;
   study.truth = settings.model;
   study.other = without_birefringence(settings.model);
-  study.groups = {group};
   study.seed = settings.seed;
   study.fit.effort = effort;
   std::vector<EventErrors> all;
@@ -86,9 +73,9 @@ PaperFigure events_figure(const FigureSettings& settings, const Progress& progre
   for (int i = 0; i < events; ++i) {
     if (progress) progress(i / static_cast<double>(events), fmt::format("event {}", i + 1));
     const StudyRow row = study_event(study, group, i, settings.threads);
-    if (!fitted(row.fit) || !fitted(*row.other)) {
+    if (!is_usable(row.fit.status) || !is_usable(row.other->status)) {
       figure.remarks.push_back(fmt::format("event {} was left out: {}", i + 1,
-                                           fitted(row.fit) ? row.other->reason : row.fit.reason));
+                                           is_usable(row.fit.status) ? row.other->reason : row.fit.reason));
       continue;
     }
     all.push_back({i + 1, errors_of(row.fit, row.truth), errors_of(*row.other, row.truth), row.delta_neg_llh,

@@ -16,14 +16,6 @@ namespace {
 constexpr double share = 0.6827;
 constexpr double two_dimensions = 2.2958, three_dimensions = 3.5267;  // chi-square of `share`
 
-double median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
-
 // Of the length of a Gaussian vector of this covariance, from its principal axes: the square is a sum of
 // scaled chi-squares, whose median Wilson and Hilferty's cube root gives to 1%.
 double median_length(const Eigen::MatrixXd& covariance) {
@@ -85,10 +77,18 @@ class LineBuilder {
 };
 
 bool is_fitted(const StudyFit& fit) {
-  return (fit.status == FitStatus::ok || fit.status == FitStatus::track_like) && fit.covariance.allFinite();
+  return is_usable(fit.status) && fit.covariance.allFinite();
 }
 
 }  // namespace
+
+double median(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
+}
 
 StudyResiduals residuals_of(const StudyRow& row, const StudyFit& fit) {
   const double sine = std::sin(fit.cascade.zenith);

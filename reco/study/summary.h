@@ -19,6 +19,9 @@ struct StudyResiduals {
 };
 StudyResiduals residuals_of(const StudyRow& row, const StudyFit& fit);
 
+// Of an even number of values, the middle between the two; not a number of none.
+double median(std::vector<double> values);
+
 // One parameter, or several taken together, over a number of events.
 struct StudyLine {
   std::string name, unit;

@@ -1,0 +1,34 @@
+#include "reco/diagnose/goodness.h"
+
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace floe {
+
+namespace {
+
+constexpr std::uint64_t first_draw = std::uint64_t{1} << 33;  // beyond those of other tests
+
+}  // namespace
+
+double total_neg_llh(const Survey& survey, const SurveyCounts& counts) {
+  const std::vector<double> of_runs = neg_llh_of(survey, counts);
+  return std::accumulate(of_runs.begin(), of_runs.end(), 0.0);
+}
+
+ExpectedFit expected_fit(const Survey& survey, int draws, std::uint64_t seed) {
+  std::vector<double> drawn(static_cast<std::size_t>(draws));
+#pragma omp parallel for
+  for (int d = 0; d < draws; ++d)
+    drawn[static_cast<std::size_t>(d)] =
+        total_neg_llh(survey, drawn_counts(survey, seed, first_draw + static_cast<std::uint64_t>(d)));
+  ExpectedFit fit;
+  double squares = 0;
+  for (const double value : drawn) fit.mean += value / draws;
+  for (const double value : drawn) squares += std::pow(value - fit.mean, 2);
+  fit.scatter = std::sqrt(squares / (draws - 1));
+  return fit;
+}
+
+}  // namespace floe

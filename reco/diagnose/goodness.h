@@ -1,0 +1,20 @@
+// How well counts of all runs fit a survey's model, against what they would if nothing were missing.
+#pragma once
+
+#include <cstdint>
+
+#include "reco/diagnose/survey.h"
+
+namespace floe {
+
+// -ln L of all runs together.
+double total_neg_llh(const Survey& survey, const SurveyCounts& counts);
+
+// Mean and standard deviation of total_neg_llh() over light that is drawn under the model. At least two
+// draws.
+struct ExpectedFit {
+  double mean = 0, scatter = 0;
+};
+ExpectedFit expected_fit(const Survey& survey, int draws, std::uint64_t seed);
+
+}  // namespace floe
