@@ -140,6 +140,8 @@ Json table_json(const StudyTable& table) {
                      {"pull_mean", line.pull_mean},
                      {"pull_width", line.pull_width},
                      {"pull_width_error", line.pull_width_error},
+                     {"pull_core", line.pull_core},
+                     {"pull_core_error", line.pull_core_error},
                      {"coverage", line.coverage},
                      {"coverage_error", line.coverage_error}});
   return {{"title", table.title},

@@ -38,15 +38,20 @@ Matrix7 matrix_of(const Json& json) {
 }
 
 Json fit_of(const StudyFit& fit) {
-  return {{"status", name_of(fit.status)},
-          {"reason", fit.reason},
-          {"cascade", vector_json(fit.cascade)},
-          {"covariance", matrix_json(fit.covariance)},
-          {"neg_llh", fit.neg_llh},
-          {"ndof", fit.ndof},
-          {"p_value", fit.p_value},
-          {"photons", fit.photons},
-          {"seconds", fit.seconds}};
+  Json json = {{"status", name_of(fit.status)},
+               {"reason", fit.reason},
+               {"cascade", vector_json(fit.cascade)},
+               {"covariance", matrix_json(fit.covariance)},
+               {"neg_llh", fit.neg_llh},
+               {"ndof", fit.ndof},
+               {"p_value", fit.p_value},
+               {"photons", fit.photons},
+               {"seconds", fit.seconds}};
+  if (const auto& other = fit.other_minimum)
+    json["other_minimum"] = {{"cascade", vector_json(other->cascade)},
+                             {"delta_neg_llh", other->delta_neg_llh},
+                             {"delta_neg_llh_error", other->delta_neg_llh_error}};
+  return json;
 }
 
 FitStatus status_of(const std::string& name) {
@@ -67,6 +72,12 @@ StudyFit study_fit_of(const Json& json) {
   fit.p_value = number_of(json.at("p_value"));
   fit.photons = json.at("photons").get<std::uint64_t>();
   fit.seconds = number_of(json.at("seconds"));
+  if (json.contains("other_minimum")) {
+    const Json& other = json.at("other_minimum");
+    fit.other_minimum =
+        OtherMinimum{cascade_of_json(other.at("cascade")), number_of(other.at("delta_neg_llh")),
+                     number_of(other.at("delta_neg_llh_error"))};
+  }
   return fit;
 }
 

@@ -116,6 +116,7 @@ void find_result(ExpectationModel& light, const EventData& data, const FitOption
   fit.cascade = cascade_of(end.light, options.kind);
   const Matrix7 jacobian = LocalFrame(end.light).jacobian(Vector7::Zero(), options.kind);
   fit.covariance = jacobian * end.covariance * jacobian.transpose();
+  if (fit.other_minimum) fit.covariance = with_other_minimum(fit.covariance, fit.cascade, *fit.other_minimum);
 
   judge(end, data, track, fit);
   look_around(end, options, fit);
@@ -129,18 +130,6 @@ void find_result(ExpectationModel& light, const EventData& data, const FitOption
   measure_goodness(evaluation, options, fit);
   for (const std::size_t i : data.brightest(pictured_modules))
     fit.arrival_times.push_back(arrival_times(data, data.lit()[i], evaluation, fit.cascade.time));
-}
-
-std::string words_of(const OtherMinimum& other) {
-  char text[240];
-  const CascadeParameters& c = other.cascade;
-  std::snprintf(
-      text, sizeof text,
-      "  another minimum is hardly worse: -ln L larger by %.1f +- %.1f at x %.1f y %.1f z %.1f m, zenith "
-      "%.0f azimuth %.0f deg, %.3g GeV\n",
-      other.delta_neg_llh, other.delta_neg_llh_error, c.position.x(), c.position.y(), c.position.z(),
-      c.zenith / degree, c.azimuth / degree, c.energy);
-  return text;
 }
 
 }  // namespace
@@ -211,7 +200,7 @@ std::string describe(const CascadeFit& fit) {
                   value(i) / shown.unit_size, error, shown.unit);
     text += line;
   }
-  if (fit.other_minimum) text += words_of(*fit.other_minimum);
+  if (fit.other_minimum) text += describe(*fit.other_minimum);
   if (fit.profile) text += describe(*fit.profile);
   if (fit.sky_map) text += describe(*fit.sky_map);
   char line[200];

@@ -13,6 +13,7 @@
 #include "propagation/model.h"
 #include "reco/data_selection.h"
 #include "reco/direct_fit/cascade_parameters.h"
+#include "reco/direct_fit/other_minimum.h"
 #include "reco/direct_fit/profile.h"
 #include "reco/direct_fit/sky_map.h"
 
@@ -72,13 +73,6 @@ struct FitRound {
   double pull = 0;  // length of the step in units of its error
 };
 
-// A minimum elsewhere that the search could not tell from the best one: `worse` in -ln L, from equal
-// simulations of both.
-struct OtherMinimum {
-  CascadeParameters cascade;
-  double delta_neg_llh = 0, delta_neg_llh_error = 0;
-};
-
 struct CascadeFit {
   FitStatus status = FitStatus::not_enough_light;
   std::string reason;  // in words, for every status but ok
@@ -87,14 +81,14 @@ struct CascadeFit {
 
   CascadeParameters cascade;
   // x, y, z [m], time [ns], zenith, azimuth [rad], energy [GeV]: statistical error of data and
-  // simulation together with the model error.
+  // simulation together with the model error; where another minimum competes, with the way there.
   Matrix7 covariance = Matrix7::Constant(std::numeric_limits<double>::quiet_NaN());
 
   // When they were asked for, and the fit ended with the calibrated score.
   std::optional<SkyMap> sky_map;
   std::optional<ProfileIntervals> profile;
 
-  std::optional<OtherMinimum> other_minimum;  // that competes with this one
+  std::optional<OtherMinimum> other_minimum;  // that the search could not tell from this one
 
   // Saturated negative log-likelihood (0: perfect match) of simulations of the fitted cascade, and its error
   // from their finite number (jackknife over independent simulations).

@@ -1,6 +1,7 @@
 #include "reco/direct_fit/cascade_parameters.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "data/base/constants.h"
@@ -43,6 +44,19 @@ double distance_between(const CascadeParameters& a, const CascadeParameters& b) 
 double angle_between(const CascadeParameters& a, const CascadeParameters& b) {
   const Vec3 u = travel_direction(a.zenith, a.azimuth), v = travel_direction(b.zenith, b.azimuth);
   return std::atan2(u.cross(v).norm(), u.dot(v));
+}
+
+Vector7 displacement(const CascadeParameters& from, const CascadeParameters& to) {
+  const Vec3 here = unit_vector(from.zenith, from.azimuth), there = unit_vector(to.zenith, to.azimuth);
+  const Vec3 by_azimuth(-std::sin(from.azimuth), std::cos(from.azimuth), 0);
+  const Vec3 by_zenith = by_azimuth.cross(here);
+  const double across = here.cross(there).norm();
+  const double stretch = across > 0 ? angle_between(from, to) / across : 1;
+  const double sine = std::max(std::sin(from.zenith), 1e-9);
+  Vector7 way;
+  way << to.position - from.position, to.time - from.time, stretch * there.dot(by_zenith),
+      stretch * there.dot(by_azimuth) / sine, to.energy - from.energy;
+  return way;
 }
 
 LightCentre light_centre(const CascadeParameters& c, CascadeKind kind) {

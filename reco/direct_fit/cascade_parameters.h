@@ -42,6 +42,11 @@ Cascade to_cascade(const CascadeParameters& cascade, CascadeKind kind);
 double distance_between(const CascadeParameters& a, const CascadeParameters& b);
 double angle_between(const CascadeParameters& a, const CascadeParameters& b);
 
+// to - from as far as one Gaussian can tell: the turn between the axes is measured along the great circle and
+// laid onto the plane of zenith and azimuth at `from`. Angles in radians, azimuth as it stands there (the way
+// on the sphere is sin(zenith) times that).
+Vector7 displacement(const CascadeParameters& from, const CascadeParameters& to);
+
 // The same cascade as the light sees it. Detectors measure where the light comes from, not where the
 // cascade began: place and time are those of the mean of the longitudinal profile, and brightness is
 // the light, in metres of bare track. In these numbers place, direction and brightness are nearly

@@ -53,7 +53,7 @@ Event simulate_event(const StudySettings& settings, const StudyGroup& group, con
 
 StudyFit summary_of(const CascadeFit& fit) {
   return {fit.status, fit.reason,  fit.cascade, fit.covariance, fit.neg_llh,
-          fit.ndof,   fit.p_value, fit.photons, fit.seconds};
+          fit.ndof,   fit.p_value, fit.photons, fit.seconds,    fit.other_minimum};
 }
 
 }  // namespace

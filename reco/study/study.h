@@ -35,6 +35,7 @@ struct StudyFit {
   double neg_llh = 0, ndof = 0, p_value = 0;
   std::uint64_t photons = 0;
   double seconds = 0;
+  std::optional<OtherMinimum> other_minimum;
 };
 
 struct StudyRow {

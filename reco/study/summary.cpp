@@ -24,6 +24,19 @@ double median_length(const Eigen::MatrixXd& covariance) {
   return std::sqrt(mean * std::pow(1 - 2 / (9 * freedom), 3));
 }
 
+// Half of the interval between the quantiles that leave out as many values on either side as of a Gaussian
+// beyond one standard deviation.
+double half_of_central_share(std::vector<double> values) {
+  if (values.size() < 2) return StudyLine::unknown;
+  std::sort(values.begin(), values.end());
+  const auto quantile = [&](double part) {
+    const double place = part * double(values.size() - 1);
+    const auto below = std::min(static_cast<std::size_t>(place), values.size() - 2);
+    return values[below] + (place - double(below)) * (values[below + 1] - values[below]);
+  };
+  return 0.5 * (quantile(0.5 + 0.5 * share) - quantile(0.5 - 0.5 * share));
+}
+
 class LineBuilder {
  public:
   LineBuilder(const std::string& name, const std::string& unit, double scale) : scale_(scale) {
@@ -62,6 +75,8 @@ class LineBuilder {
     result.bias_error = spread / std::sqrt(double(n));
     moments(pulls_, result.pull_mean, result.pull_width);
     result.pull_width_error = result.pull_width / std::sqrt(2.0 * double(n));
+    result.pull_core = half_of_central_share(pulls_);
+    result.pull_core_error = 0.96 * result.pull_core / std::sqrt(double(n));  // of a Gaussian's quantiles
     result.median_error = median(lengths_);
     result.median_bound = median(bounds_);
     result.coverage = double(inside_) / double(n);
@@ -91,22 +106,13 @@ double median(std::vector<double> values) {
 }
 
 StudyResiduals residuals_of(const StudyRow& row, const StudyFit& fit) {
-  const double sine = std::sin(fit.cascade.zenith);
   StudyResiduals result;
-  // The way from the true to the fitted direction, on the tangent plane at the fitted one.
-  const Vec3 found = unit_vector(fit.cascade.zenith, fit.cascade.azimuth);
-  const Vec3 truth = unit_vector(row.truth.zenith, row.truth.azimuth);
-  const Vec3 by_azimuth(-std::sin(fit.cascade.azimuth), std::cos(fit.cascade.azimuth), 0);
-  const Vec3 by_zenith = by_azimuth.cross(found);
-  const double angle = angle_between(fit.cascade, row.truth), across = found.cross(truth).norm();
-  const double stretch = across > 0 ? angle / across : 1;
-  result.difference << fit.cascade.position - row.truth.position, fit.cascade.time - row.truth.time,
-      -stretch * truth.dot(by_zenith), -stretch * truth.dot(by_azimuth),
-      fit.cascade.energy / row.truth.energy - 1;
   Vector7 unit = Vector7::Ones();
-  unit(5) = sine;
+  unit(5) = std::sin(fit.cascade.zenith);
   unit(6) = 1 / fit.cascade.energy;
   result.covariance = unit.asDiagonal() * fit.covariance * unit.asDiagonal();
+  unit(6) = 1 / row.truth.energy;
+  result.difference = -displacement(fit.cascade, row.truth).cwiseProduct(unit);
   unit(5) = std::sin(row.truth.zenith);
   unit(6) = 1 / row.truth.energy;
   result.bound = unit.asDiagonal() * row.bound * unit.asDiagonal();
@@ -131,6 +137,7 @@ StudyTable summarise(std::span<const StudyRow> rows, const std::string& title) {
       continue;
     }
     ++table.fitted;
+    if (row.fit.other_minimum) ++table.contested;
     const StudyResiduals r = residuals_of(row, row.fit);
     for (int i = 0; i < 7; ++i) {
       LineBuilder& line = lines[static_cast<std::size_t>(i)];
@@ -188,9 +195,10 @@ StudyBias summarise_bias(std::span<const StudyRow> rows) {
 }
 
 std::string text_of(const StudyTable& table) {
-  std::string text = fmt::format("{}: {} of {} events fitted\n", table.title, table.fitted, table.events);
-  text += fmt::format("  {:<10} {:>4}  {:>17}  {:>8}  {:>8}  {:>5}  {:>6}  {:>13}  {:>13}\n", "", "", "bias",
-                      "median", "bound", "ratio", "pull", "pull width", "in 68%");
+  std::string text = fmt::format("{}: {} of {} events fitted", table.title, table.fitted, table.events);
+  text += table.contested > 0 ? fmt::format(", {} with a competing minimum\n", table.contested) : "\n";
+  text += fmt::format("  {:<10} {:>4}  {:>17}  {:>8}  {:>8}  {:>5}  {:>6}  {:>13}  {:>14}  {:>13}\n", "", "",
+                      "bias", "median", "bound", "ratio", "pull", "pull width", "of central 68%", "in 68%");
   for (const StudyLine& line : table.lines) {
     const bool pulls = line.pull_width > 0, errors = line.median_error > 0;
     text += fmt::format("  {:<10} {:>4}", line.name, line.unit);
@@ -199,9 +207,9 @@ std::string text_of(const StudyTable& table) {
     text += errors ? fmt::format("  {:>8.3f}  {:>8.3f}  {:>5.2f}", line.median_error, line.median_bound,
                                  line.median_error / line.median_bound)
                    : fmt::format("  {:>8}  {:>8}  {:>5}", "", "", "");
-    text += pulls ? fmt::format("  {:>6.2f}  {:>5.2f} +- {:<4.2f}", line.pull_mean, line.pull_width,
-                                line.pull_width_error)
-                  : fmt::format("  {:>6}  {:>13}", "", "");
+    text += pulls ? fmt::format("  {:>6.2f}  {:>5.2f} +- {:<4.2f}  {:>6.2f} +- {:<4.2f}", line.pull_mean,
+                                line.pull_width, line.pull_width_error, line.pull_core, line.pull_core_error)
+                  : fmt::format("  {:>6}  {:>13}  {:>14}", "", "", "");
     text += line.count > 0
                 ? fmt::format("  {:>5.1f} +- {:<4.1f}\n", 100 * line.coverage, 100 * line.coverage_error)
                 : "\n";

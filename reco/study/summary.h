@@ -31,13 +31,17 @@ struct StudyLine {
   double bias = unknown, bias_error = unknown;  // mean and its error
   double median_error = unknown;                // of |fit - truth|
   double median_bound = unknown;  // what Gaussian errors at the Cramer-Rao bound would give for it
+  // Pulls: (fit - truth) / error. The width is their standard deviation, the core half of the interval that
+  // holds the central 68.27%; both are 1 for Gaussian errors, and a few events far off widen only the first.
   double pull_mean = unknown, pull_width = unknown, pull_width_error = unknown;
+  double pull_core = unknown, pull_core_error = unknown;
   double coverage = unknown, coverage_error = unknown;  // of the region for 68.27%; binomial error
 };
 
 struct StudyTable {
   std::string title;
   std::size_t events = 0, fitted = 0;
+  std::size_t contested = 0;  // of the fitted: another minimum competed
   // x, y, z, time, zenith, azimuth, energy; then position and direction (distances, with regions of three and
   // two dimensions) and all seven parameters pooled.
   std::vector<StudyLine> lines;

@@ -1,0 +1,82 @@
+#include "reco/study/summary.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace floe {
+namespace {
+
+// Fits with Gaussian errors of the size that they say, at the bound.
+std::vector<StudyRow> gaussian_rows(int count) {
+  std::mt19937_64 engine(7);
+  std::normal_distribution<double> normal;
+  Vector7 error;
+  error << 2, 3, 1, 4, 0.02, 0.03, 900;
+  std::vector<StudyRow> rows;
+  for (int i = 0; i < count; ++i) {
+    StudyRow row;
+    row.energy = 1e4;
+    row.index = i;
+    row.truth = {{10, 20, -300}, 500, 1.2, 2, 1e4};
+    Vector7 found = to_vector(row.truth);
+    for (int k = 0; k < 7; ++k) found(k) += error(k) * normal(engine);
+    row.fit.status = FitStatus::ok;
+    row.fit.cascade = {found.head<3>(), found(3), found(4), found(5), found(6)};
+    row.fit.covariance = error.cwiseAbs2().asDiagonal();
+    row.bound = row.fit.covariance;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+const StudyLine& line_of(const StudyTable& table, const std::string& name) {
+  for (const StudyLine& line : table.lines)
+    if (line.name == name) return line;
+  throw std::runtime_error("no line " + name);
+}
+
+TEST(StudySummary, GaussianErrorsHavePullsOfWidthOneAndCover) {
+  const StudyTable table = summarise(gaussian_rows(1000), "test");
+  EXPECT_EQ(table.fitted, 1000u);
+  for (const StudyLine& line : table.lines) {
+    EXPECT_NEAR(line.coverage, 0.6827, 4 * line.coverage_error) << line.name;
+    if (!(line.pull_width > 0)) continue;
+    EXPECT_NEAR(line.pull_width, 1, 4 * line.pull_width_error) << line.name;
+    EXPECT_NEAR(line.pull_core, 1, 4 * line.pull_core_error) << line.name;
+  }
+  // Medians of 1000 are known to 1.6 / sqrt(1000) of themselves, at worst.
+  for (const char* name : {"position", "direction", "energy"})
+    EXPECT_NEAR(line_of(table, name).median_error / line_of(table, name).median_bound, 1, 0.1) << name;
+}
+
+TEST(StudySummary, OneEventFarOffWidensOnlyTheStandardDeviation) {
+  std::vector<StudyRow> rows = gaussian_rows(100);
+  const StudyLine before = line_of(summarise(rows, ""), "x");
+  rows[3].fit.cascade.position.x() = rows[3].truth.position.x() + 40;
+  const StudyLine after = line_of(summarise(rows, ""), "x");
+  EXPECT_GT(after.pull_width, 2);
+  EXPECT_NEAR(after.pull_core, before.pull_core, 0.05);
+}
+
+TEST(StudySummary, SaysHowManyHaveACompetingMinimum) {
+  std::vector<StudyRow> rows = gaussian_rows(10);
+  rows[2].fit.other_minimum = OtherMinimum{rows[2].truth, 1, 1};
+  const StudyTable table = summarise(rows, "ten");
+  EXPECT_EQ(table.contested, 1u);
+  EXPECT_NE(text_of(table).find("10 of 10 events fitted, 1 with a competing minimum"), std::string::npos);
+}
+
+TEST(StudySummary, EventsWithoutResultAreNamedAndLeftOut) {
+  std::vector<StudyRow> rows = gaussian_rows(10);
+  rows[4].fit.status = FitStatus::not_enough_light;
+  rows[4].fit.reason = "8 photoelectrons";
+  const StudyTable table = summarise(rows, "ten");
+  EXPECT_EQ(table.fitted, 9u);
+  ASSERT_EQ(table.failures.size(), 1u);
+  EXPECT_EQ(table.failures[0], "10000 GeV event 4: not_enough_light: 8 photoelectrons");
+}
+
+}  // namespace
+}  // namespace floe
