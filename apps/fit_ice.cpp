@@ -169,6 +169,11 @@ void add_fit_ice(CLI::App& floe, const std::string& command_line) {
              command->options.light.least_hits);
   add_number(app, "--model-error", "SIGMA", {0, 1},
              "Relative error of the simulation that the fit allows for", command->options.model_error);
+  add_number(
+      app, "--efficiencies", "SIGMA", {0, 1},
+      "Fit the relative efficiency of every receiver along, known to so much beforehand; 0: as the model "
+      "has them",
+      command->options.efficiency_width);
   add_number(app, "--smoothness", "SIGMA", {0.001, 100},
              "Prior: width of ln(ratio) between neighbouring layers", command->options.smoothness);
   add_simulation_options(app, command->run);

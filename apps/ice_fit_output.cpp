@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "apps/improved_ice.h"
@@ -67,6 +68,27 @@ std::string run_table(const IceFit& fit) {
   return table.str();
 }
 
+// Few words for people; efficiencies.csv has them all.
+std::string efficiency_line(const IceFit& fit) {
+  if (fit.efficiencies.empty()) return "";
+  const auto off = [](const ReceiverEfficiency& e) { return std::abs(e.factor - 1) / e.error; };
+  const auto most = std::ranges::max_element(fit.efficiencies, {}, off);
+  double squares = 0;
+  for (const ReceiverEfficiency& e : fit.efficiencies) squares += (e.factor - 1) * (e.factor - 1);
+  return fmt::format(
+      "efficiencies of {} receivers: they scatter by {:.3f} (after the prior); furthest off is {},{} with "
+      "{}\n",
+      fit.efficiencies.size(), std::sqrt(squares / static_cast<double>(fit.efficiencies.size())),
+      most->module.string, most->module.dom, with_error(most->factor, most->error));
+}
+
+std::string efficiencies_csv(const IceFit& fit) {
+  std::string text = "string,dom,factor,error\n";
+  for (const ReceiverEfficiency& e : fit.efficiencies)
+    text += fmt::format("{},{},{:.4f},{:.4f}\n", e.module.string, e.module.dom, e.factor, e.error);
+  return text;
+}
+
 Json parameter_json(const IceFit& fit, std::size_t i) {
   const IceParameter& p = fit.parameters[i];
   Json json = {{"name", p.name}, {"value", fit.value(i)}, {"error", fit.error(i)}, {"unit", p.unit}};
@@ -98,7 +120,7 @@ std::string ice_fit_table(const IceFitReport& report) {
   const IceFit& fit = report.fit;
   std::string text;
   for (const std::string& sentence : report.fit.left_out) text += "left out: " + sentence + "\n";
-  text += layer_table(fit) + other_parameters(fit) + run_table(fit);
+  text += layer_table(fit) + other_parameters(fit) + run_table(fit) + efficiency_line(fit);
   return text + fmt::format("-ln L {:.1f} in {} bins; {} rounds, {:.3g} photons, {:.0f} s{}\n", fit.neg_llh,
                             fit.bins, fit.rounds, static_cast<double>(fit.photons), fit.seconds,
                             fit.converged ? "" : "; the last step was not yet small");
@@ -142,6 +164,9 @@ Json ice_fit_json(const IceFitReport& report) {
     json["correlation"].push_back(row);
   }
   for (const RunResult& run : fit.runs) json["runs"].push_back(to_json(run));
+  for (const ReceiverEfficiency& e : fit.efficiencies)
+    json["efficiencies"].push_back(
+        {{"string", e.module.string}, {"dom", e.module.dom}, {"factor", e.factor}, {"error", e.error}});
   return json;
 }
 
@@ -152,6 +177,8 @@ void write_ice_fit(const IceFitReport& report, const fs::path& folder) {
   write_whole_file(folder / "result.json", json_text(ice_fit_json(report)));
   write_whole_file(folder / "stratigraphy.csv", stratigraphy_csv(rows));
   write_whole_file(folder / "stratigraphy.svg", stratigraphy_picture(rows, title));
+  if (!report.fit.efficiencies.empty())
+    write_whole_file(folder / "efficiencies.csv", efficiencies_csv(report.fit));
   write_improved_ice(report.base_request, report.fitted, {}, changes(report), folder / "improved-ice");
 }
 

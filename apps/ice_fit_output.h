@@ -23,8 +23,9 @@ struct IceFitReport {
 std::string ice_fit_table(const IceFitReport& report);  // for people
 Json ice_fit_json(const IceFitReport& report);          // result.json
 Json to_json(const RunResult& run);
-// result.json, stratigraphy.csv, stratigraphy.svg and improved-ice/ with its CHANGES.txt. Files of the base
-// directory that floe does not read are passed on. Throws OutputError.
+// result.json, stratigraphy.csv, stratigraphy.svg, efficiencies.csv where they were fitted, and improved-ice/
+// with its CHANGES.txt. Files of the base directory that floe does not read are passed on. Throws
+// OutputError.
 void write_ice_fit(const IceFitReport& report, const std::filesystem::path& folder);
 
 }  // namespace floe

@@ -26,6 +26,7 @@ void check(const FitOptions& o) {
   };
   need(o.oversize >= 1 && o.oversize <= 100, "oversize must be 1 to 100");
   need(o.model_error >= 0 && o.model_error <= 2, "model error must be 0 to 2");
+  need(o.data_widened >= 0 && o.data_widened <= 1, "the share of widened data must be 0 to 1");
   need(std::isfinite(o.effort) && o.effort > 0, "effort must be above 0");
   need(o.sky_map_pixels == 0 || (o.sky_map_pixels >= 3 && o.sky_map_pixels % 2 == 1),
        "pixels of a sky map must be 0, or odd from 3 on");

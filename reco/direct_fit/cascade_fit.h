@@ -27,9 +27,10 @@ struct FitOptions {
   CascadeKind kind = CascadeKind::electron;
   double oversize = 5;       // of the modules in the last rounds, 1-100; that of the data if simulated
   double model_error = 0.1;  // sigma of the log-normal error of every bin's expectation; >= 0
-  // Whether the data were simulated with modules that wide, too: then one photon may be seen more than once,
-  // and counts scatter more than Poisson's by as much as the simulations show.
-  bool data_widened = false;
+  // Of data that were simulated with modules that wide, too: then one photon may be seen more than once, and
+  // counts scatter more than Poisson's, by this share of what the simulations show. 0: data of real modules;
+  // 1: every hit was kept; 1/k: one in k was.
+  double data_widened = 0;
   DataSelection selection;  // modules and times left out, dark noise, saturation
   std::uint64_t seed = 1;
   int threads = 0;         // 0: all cores; the result does not depend on it

@@ -109,8 +109,9 @@ void Search::calibrate(End& end, CalibrationNeed& need) {
   }
   end.light = frame.at(solution.step);
   end.covariance = solution.covariance;
-  if (options_.data_widened)
-    end.covariance += std::max(0.0, solution.dispersion - 1) * solution.data_covariance;
+  if (options_.data_widened > 0)
+    end.covariance +=
+        options_.data_widened * std::max(0.0, solution.dispersion - 1) * solution.data_covariance;
   const Vector7 found = solution.covariance.diagonal().cwiseSqrt();
   end.pull = solution.leaves ? std::numeric_limits<double>::infinity()
                              : solution.step.cwiseAbs().cwiseQuotient(found).maxCoeff();

@@ -10,6 +10,7 @@
 #include "data/base/error.h"
 #include "reco/ice_fit/ice_point.h"
 #include "reco/ice_fit/ice_solution.h"
+#include "reco/ice_fit/receiver_efficiencies.h"
 #include "reco/ice_fit/run_light.h"
 #include "reco/ice_fit/run_likelihood.h"
 #include "reco/ice_fit/run_plan.h"
@@ -40,6 +41,8 @@ void check(const IceFitOptions& options) {
   check(static_cast<const RunSettings&>(options));
   if (!(options.smoothness > 0 && options.amplitude > 0))
     throw UsageError("the widths of priors must be positive");
+  if (!(options.efficiency_width >= 0 && options.efficiency_width <= 1))
+    throw UsageError("the width of efficiencies must be from 0 to 1");
   if (options.most_rounds < 1) throw UsageError("a fit needs at least one round");
 }
 
@@ -112,14 +115,21 @@ class Fit {
     const IcePoint point(base_, fit_.parameters, fit_.numbers,
                          data_.runs.front().run.wavelength);  // all have the same
     const auto runs = states_.size();
-    ScoreSystem system(static_cast<int>(count() + 2 * runs));
+    // The first round may be far from the data; from the second one on, bins stay and slopes gather.
+    if (round_ <= 2)
+      for (std::size_t r = 0; r < runs; ++r) states_[r].bins = bins_of(point.model(), r);
+    const EfficiencyColumns efficiencies = efficiency_columns();
+    ScoreSystem system(static_cast<int>(count() + 2 * runs) + efficiencies.count());
     for (std::size_t r = 0; r < runs; ++r) {
       report(r, "walking in the light of");
-      add_run_to(point, r, system);
+      add_run_to(point, r, efficiencies, system);
     }
     calibrate_information(groups(), system);
-    const IceSolution solution = solve_ice(system, fit_.parameters, fit_.numbers,
+    const ProfiledSystem profiled =
+        profile_efficiencies(system, efficiencies.count(), options_.efficiency_width);
+    const IceSolution solution = solve_ice(profiled.system, fit_.parameters, fit_.numbers,
                                            {options_.smoothness, options_.amplitude}, longest_step);
+    note_efficiencies(efficiencies, profiled, solution.step);
     double furthest = 0, squares = 0;
     const double share = physical_share(solution.step);
     const std::vector<double> before = fit_.numbers;
@@ -168,12 +178,31 @@ class Fit {
     return names;
   }
 
-  void add_run_to(const IcePoint& point, std::size_t r, ScoreSystem& system) {
+  EfficiencyColumns efficiency_columns() const {
+    if (options_.efficiency_width == 0) return {};
+    std::vector<const RunBins*> bins;
+    for (const RunState& state : states_) bins.push_back(&state.bins);
+    return {bins, static_cast<int>(count() + 2 * states_.size())};
+  }
+
+  void note_efficiencies(const EfficiencyColumns& columns, const ProfiledSystem& profiled,
+                         const Eigen::VectorXd& step) {
+    fit_.efficiencies.clear();
+    if (columns.count() == 0) return;
+    constexpr double least = 0.01;  // a module that is dead has no efficiency below this
+    const Eigen::VectorXd changes = profiled.changes(step);
+    for (std::size_t i = 0; i < columns.modules().size(); ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      fit_.efficiencies.push_back({base_.detector->modules()[columns.modules()[i]].id,
+                                   std::max(least, 1 + changes(at)), profiled.errors(at)});
+    }
+  }
+
+  void add_run_to(const IcePoint& point, std::size_t r, const EfficiencyColumns& efficiencies,
+                  ScoreSystem& system) {
     const RunData& run = data_.runs[r];
     RunState& state = states_[r];
     const double photons = photons_of(r);
-    // The first round may be far from the data; from the second one on, bins stay and slopes gather.
-    if (round_ <= 2) state.bins = bins_of(point.model(), r);
     const RunBins& bins = state.bins;
     const RunRequest request = this->request(r, 2, photons);
     const SimulatedRun simulated = simulate(point.model(), request, state.time_zero);
@@ -188,19 +217,30 @@ class Fit {
     counts.dispersion = dispersion(simulated);
     counts.data_dispersion = (run.run.oversize > 1 ? counts.dispersion : 1) * run.charge_dispersion;
     counts.model_error = options_.model_error;
-    const int nuisance = static_cast<int>(count() + 2 * r);
+    RunColumns columns{static_cast<int>(count() + 2 * r), efficiencies.of_receivers(bins), {}};
+    if (efficiencies.count() > 0) columns.receiver_of_bin = bins.receiver_of_bin();
     if (round_ <= 2) {
-      add_run(light, light, counts, nuisance, system);
+      add_run(light, light, counts, columns, system);
       state.seen = std::move(light);
     } else {
-      add_run(light, state.seen, counts, nuisance, system);
+      add_run(light, state.seen, counts, columns, system);
       for (int fold = 0; fold < 2; ++fold) state.seen.folds[fold] += light.folds[fold];
     }
   }
 
+  Model with_efficiencies(const Model& model) const {
+    if (fit_.efficiencies.empty()) return model;
+    ModelParts parts = parts_of(model);
+    std::vector<Module> modules = parts.detector.modules();
+    for (const ReceiverEfficiency& receiver : fit_.efficiencies)
+      modules[parts.detector.index_of(receiver.module)].relative_efficiency *= receiver.factor;
+    parts.detector = Detector(parts.detector.name(), std::move(modules), parts.detector.strings());
+    return freeze(std::move(parts));
+  }
+
   // Fresh simulations say how well the result fits.
   void judge() {
-    const Model model = this->model();
+    const Model model = with_efficiencies(this->model());
     for (std::size_t r = 0; r < states_.size(); ++r) {
       report(r, "measuring the fit to");
       const RunData& run = data_.runs[r];

@@ -19,6 +19,9 @@ namespace floe {
 struct IceFitOptions : RunSettings {
   double smoothness = 0.5;  // prior: width of the difference between neighbouring layers, in the logarithm
   double amplitude = 1;     // prior: width of each parameter about its start, in the logarithm
+  // Prior: width of each receiver's relative efficiency about the model's, all of them fitted along; 0:
+  // known.
+  double efficiency_width = 0;
   int most_rounds = 6;
   bool judged = true;  // by fresh simulations at the end; without, IceFit::runs and neg_llh are missing
 };
@@ -31,13 +34,20 @@ struct RunResult {
   int bins = 0;
 };
 
+// Of a module that received light, over the model's.
+struct ReceiverEfficiency {
+  ModuleId module;
+  double factor = 1, error = 0;
+};
+
 struct IceFit {
   std::vector<IceParameter> parameters;
   std::vector<double> numbers;       // as IceParameter::apply takes them
   Eigen::MatrixXd covariance;        // of the numbers, data and simulation and priors together
   std::vector<double> light_errors;  // without the priors; infinite where the data say nothing
   std::vector<RunResult> runs;
-  std::vector<std::string> left_out;  // of the data, a sentence each
+  std::vector<ReceiverEfficiency> efficiencies;  // where they were fitted
+  std::vector<std::string> left_out;             // of the data, a sentence each
   double neg_llh = 0;
   int bins = 0, rounds = 0;
   bool converged = false;
@@ -51,8 +61,9 @@ struct IceFit {
 };
 
 // Gauss-Newton rounds: simulate every run in the current model, read slopes off the detected photons' paths,
-// solve for the parameters (each run's brightness and time zero fitted along), until two steps are
-// small. Throws UsageError for options out of range, NoResult when no run has light to fit.
+// solve for the parameters (each run's brightness and time zero fitted along, efficiencies where they are
+// asked for), until two steps are small. Throws UsageError for options out of range, NoResult when no run has
+// light to fit.
 IceFit fit_ice(const Model& base, const FlasherData& data, const std::vector<IceParameter>& parameters,
                const IceFitOptions& options, const Progress& progress = {});
 

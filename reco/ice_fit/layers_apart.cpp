@@ -19,6 +19,12 @@ struct Group {
   FlasherData data;
 };
 
+// A module would have an efficiency of its own in every layer.
+void expect_known_efficiencies(const IceFitOptions& options) {
+  if (options.efficiency_width > 0)
+    throw UsageError("efficiencies of receivers are fitted to all layers at once, not layer by layer");
+}
+
 std::map<double, Group> groups_of(const std::vector<IceParameter>& parameters) {
   std::map<double, Group> groups;
   for (const IceParameter& parameter : parameters) {
@@ -84,6 +90,7 @@ void sort_by_family(IceFit& fit) {
 IceFit fit_layers_apart(const Model& base, const FlasherData& data,
                         const std::vector<IceParameter>& parameters, const IceFitOptions& options,
                         const Progress& progress) {
+  expect_known_efficiencies(options);
   std::map<double, Group> groups = groups_of(parameters);
   if (groups.empty()) throw UsageError("there is no layer to fit");
   for (const RunData& run : data.runs) group_of(run, *base.detector, groups).data.runs.push_back(run);

@@ -35,6 +35,13 @@ RunBins::RunBins(std::span<const SimulatedHit> hits, double scale, const std::ve
   }
 }
 
+std::vector<int> RunBins::receiver_of_bin() const {
+  std::vector<int> receivers;
+  for (std::size_t i = 0; i < receivers_.size(); ++i)
+    receivers.insert(receivers.end(), static_cast<std::size_t>(receivers_[i].bins()), static_cast<int>(i));
+  return receivers;
+}
+
 int RunBins::bin(std::uint32_t module, double time) const {
   const int receiver = receiver_of_[module];
   if (receiver < 0) return -1;

@@ -31,6 +31,7 @@ class RunBins {
 
   int size() const { return size_; }
   const std::vector<Receiver>& receivers() const { return receivers_; }
+  std::vector<int> receiver_of_bin() const;  // by bin: index into receivers()
   // The bin of a hit; -1 when its module is not a receiver.
   int bin(std::uint32_t module, double time) const;
 

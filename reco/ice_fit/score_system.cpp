@@ -10,28 +10,37 @@ namespace floe {
 
 namespace {
 
-// Adds the run's own two columns, brightness and time zero, to the slopes of ln(mu) per bin.
-Eigen::MatrixXd with_nuisances(const Eigen::MatrixXd& ice, const LightFold& fold) {
-  Eigen::MatrixXd slopes(ice.rows(), ice.cols() + 2);
-  slopes << ice, Eigen::VectorXd::Ones(ice.rows()),
-      (fold.delay.array() / fold.counts.array().max(1)).matrix();
+// 1 where a bin is of a receiver whose efficiency is fitted.
+Eigen::MatrixXd efficiency_slopes(Eigen::Index bins, const RunColumns& columns) {
+  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(bins, static_cast<Eigen::Index>(columns.efficiency.size()));
+  for (std::size_t bin = 0; bin < columns.receiver_of_bin.size(); ++bin)
+    slopes(static_cast<Eigen::Index>(bin), columns.receiver_of_bin[bin]) = 1;
   return slopes;
 }
 
-Eigen::MatrixXd own_slopes(const LightFold& fold) {
-  return with_nuisances(fold.slopes.array().colwise() / fold.counts.array().max(1), fold);
+// Adds the run's own columns, brightness, time zero and efficiencies, to the slopes of ln(mu) per bin.
+Eigen::MatrixXd with_nuisances(const Eigen::MatrixXd& ice, const LightFold& fold, const RunColumns& columns) {
+  const Eigen::MatrixXd efficiencies = efficiency_slopes(ice.rows(), columns);
+  Eigen::MatrixXd slopes(ice.rows(), ice.cols() + 2 + efficiencies.cols());
+  slopes << ice, Eigen::VectorXd::Ones(ice.rows()),
+      (fold.delay.array() / fold.counts.array().max(1)).matrix(), efficiencies;
+  return slopes;
+}
+
+Eigen::MatrixXd own_slopes(const LightFold& fold, const RunColumns& columns) {
+  return with_nuisances(fold.slopes.array().colwise() / fold.counts.array().max(1), fold, columns);
 }
 
 }  // namespace
 
-void add_run(const RunLight& light, const RunLight& seen, const RunCounts& counts, int nuisance,
+void add_run(const RunLight& light, const RunLight& seen, const RunCounts& counts, const RunColumns& columns,
              ScoreSystem& system) {
   const LightFold* folds = light.folds;
   const Eigen::Index parameters = folds[0].slopes.cols();
   const SmoothSlopes smooth = smooth_slopes(seen.folds, seen.places, seen.symmetric);
-  const Eigen::MatrixXd slopes[2] = {own_slopes(folds[0]), own_slopes(folds[1])};
-  const Eigen::MatrixXd weight[2] = {with_nuisances(smooth.fold[0], seen.folds[0]),
-                                     with_nuisances(smooth.fold[1], seen.folds[1])};
+  const Eigen::MatrixXd slopes[2] = {own_slopes(folds[0], columns), own_slopes(folds[1], columns)};
+  const Eigen::MatrixXd weight[2] = {with_nuisances(smooth.fold[0], seen.folds[0], columns),
+                                     with_nuisances(smooth.fold[1], seen.folds[1], columns)};
   const Eigen::ArrayXd expected[2] = {counts.scale * folds[0].counts.array(),
                                       counts.scale * folds[1].counts.array()};
   const Eigen::ArrayXd mu = (expected[0] + expected[1]) / 2;
@@ -40,7 +49,7 @@ void add_run(const RunLight& light, const RunLight& seen, const RunCounts& count
   const double known = counts.model_error * counts.model_error;
   const Eigen::ArrayXd trust = 1 / (1 + mu * (1 / simulated + known));
 
-  const Eigen::Index size = parameters + 2;
+  const Eigen::Index size = weight[0].cols();
   Eigen::VectorXd gap = Eigen::VectorXd::Zero(size);
   Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(size, size), information = slope, noise = slope;
   const auto add_noise = [&](const Eigen::MatrixXd& w, const Eigen::ArrayXd& variance) {
@@ -56,8 +65,12 @@ void add_run(const RunLight& light, const RunLight& seen, const RunCounts& count
   }
   add_noise((weight[0] + weight[1]) / 2, counts.data_dispersion * mu + known * mu.square());
 
-  // Into the system: the ice's columns, then the run's own two.
-  const auto place = [&](Eigen::Index i) { return i < parameters ? i : nuisance + (i - parameters); };
+  // Into the system: the ice's columns, then the run's own.
+  const auto place = [&](Eigen::Index i) -> Eigen::Index {
+    if (i < parameters) return i;
+    if (i < parameters + 2) return columns.nuisance + (i - parameters);
+    return columns.efficiency[static_cast<std::size_t>(i - parameters - 2)];
+  };
   for (Eigen::Index i = 0; i < size; ++i) {
     system.gap(place(i)) += gap(i);
     for (Eigen::Index k = 0; k < size; ++k) {

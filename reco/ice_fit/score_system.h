@@ -34,11 +34,18 @@ struct RunCounts {
   double model_error = 0;
 };
 
-// Adds a run: parameters of the ice are the first columns, its brightness (logarithm) and time zero the two
-// columns from `nuisance` on.
+// Where a run's own numbers stand; parameters of the ice are the first columns.
+struct RunColumns {
+  int nuisance = 0;  // brightness (logarithm), and time zero in the column behind it
+  // By receiver of the run's bins, its relative efficiency, and by bin its receiver; both empty when
+  // efficiencies are as the model has them.
+  std::vector<int> efficiency, receiver_of_bin;
+};
+
+// Adds a run.
 // `seen`: light in the same bins that the weights come from, fold by fold; this light, or the sum of this and
 // of earlier simulations of nearly the same ice.
-void add_run(const RunLight& light, const RunLight& seen, const RunCounts& counts, int nuisance,
+void add_run(const RunLight& light, const RunLight& seen, const RunCounts& counts, const RunColumns& columns,
              ScoreSystem& system);
 
 // Scales the information of the parameters of a group so that its diagonal adds up to that of the slopes,
