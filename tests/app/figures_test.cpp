@@ -97,6 +97,45 @@ TEST_F(Figures, OfDiffusionHaveTheTwelveNumbers) {
   EXPECT_NE(text_of("made/diffusion.svg").find("elongation 1.4"), std::string::npos);
 }
 
+TEST_F(Figures, OfLlhSpaceHaveAGridAndItsMinimum) {
+  floe_well("figures --only llh-space --photons 1e8 --seed 3 -o made");
+  const Json figure = json_of("made/figures.json")["figures"][0];
+  const std::string table = text_of("made/llh-space.csv");
+  EXPECT_TRUE(table.starts_with("birefringence 2150-2350 m,scattering 2150-2350 m,neg_llh,above_minimum\n"));
+  EXPECT_GE(std::count(table.begin(), table.end(), '\n'), 1 + 25);
+  const double noise = number_of(figure, "noise", "standard deviation of -ln L").value;
+  EXPECT_GT(noise, 0);
+  // The data have both factors at 1. The grid is 0.15 wide in scattering at least, and its lowest point is
+  // not further from there than noise of a few units of -ln L takes it.
+  EXPECT_NEAR(number_of(figure, "minimum", "scattering 2150-2350 m").value, 1, 0.2);
+  const std::string picture = text_of("made/llh-space.svg");
+  EXPECT_TRUE(picture.starts_with("<svg "));
+  for (const char* said : {"birefringence 2150-2350 m", "scattering 2150-2350 m"})
+    EXPECT_NE(picture.find(said), std::string::npos) << said;
+}
+
+TEST_F(Figures, OfStratigraphyFindWhatWasChanged) {
+  floe_well("figures --only stratigraphy --photons 1e8 --seed 3 -o made");
+  const Json figure = json_of("made/figures.json")["figures"][0];
+  // The data have 1.2 times the absorption and 0.7 times the birefringence, in all four layers.
+  double chi_square = 0;
+  int layers = 0;
+  for (const Json& number : figure["numbers"]) {
+    const std::string name = number["name"];
+    const double truth = name.starts_with("absorption") ? 1.2 : 0.7;
+    const double pull = (number["value"].get<double>() - truth) / number["error"].get<double>();
+    chi_square += pull * pull;
+    ++layers;
+    EXPECT_LT(std::abs(pull), 4) << name;
+  }
+  EXPECT_EQ(layers, 8);
+  EXPECT_LT(chi_square, 26.1);  // one in a thousand for 8
+  const std::string picture = text_of("made/stratigraphy.svg");
+  for (const char* said : {"depth [m]", "Crystals", "Absorption"})
+    EXPECT_NE(picture.find(said), std::string::npos) << said;
+  EXPECT_TRUE(text_of("made/stratigraphy.csv").starts_with("depth_m,effective_scattering_length_m,"));
+}
+
 TEST_F(Figures, DoNotDependOnThreads) {
   floe_well("figures --only light-curves --photons 1e8 --quiet --threads 1 -o one");
   floe_well("figures --only light-curves --photons 1e8 --quiet --threads 3 -o three");

@@ -80,6 +80,25 @@ TEST_F(FitIce, FindsThePlaceOfABand) {
   }
 }
 
+// One of 300 receivers sees half as much: fitted along, it stands out, and the ice is as it was.
+TEST_F(FitIce, FindsTheReceiverThatSeesLess) {
+  simulate("--with module-efficiency.string=36,module-efficiency.dom=21,module-efficiency.factor=0.5");
+  const Outcome outcome = floe_well(
+      "fit-ice runs.h5 --fit absorption-scale --light 1 --least-hits 6000 --efficiencies 0.2 -o fitted");
+  EXPECT_NE(outcome.out.find("furthest off is 36,21"), std::string::npos) << outcome.out;
+  const Json found = result();
+  const Json& parameter = found["parameters"][0];
+  EXPECT_NEAR(parameter["value"].get<double>(), 1, 4 * parameter["error"].get<double>());
+  const auto odd = std::ranges::find_if(found["efficiencies"], [](const Json& receiver) {
+    return receiver["string"] == 36 && receiver["dom"] == 21;
+  });
+  ASSERT_NE(odd, found["efficiencies"].end());
+  EXPECT_NEAR((*odd)["factor"].get<double>(), 0.5, 5 * (*odd)["error"].get<double>());
+  EXPECT_GT(found["efficiencies"].size(), 100u);
+  EXPECT_NE(text_of("fitted/efficiencies.csv").find("\n36,21,"), std::string::npos);
+  expect_error(floe("fit-ice runs.h5 --layer-by-layer --efficiencies 0.1 -o new"), 2, "layer by layer");
+}
+
 TEST_F(FitIce, TheResultDoesNotDependOnThreads) {
   simulate("");
   const std::string fit =
