@@ -345,6 +345,10 @@ class Diagnoser {
 
   // Each run judged by a model that was fitted to other runs.
   void finish(bool unexplained) {
+    // Where all that may be added still leaves a gap, each has taken a part of what none of them is.
+    const auto named = static_cast<int>(result_.effects.size());
+    if (unexplained && named == options_.most_effects && named > 1)
+      give_up_everything(fmt::format("{} effects together leave a gap, and none of them names it", named));
     result_.improved = current();
     RunSettings settings = options_;
     settings.light.light *= light_of_gap;
@@ -367,7 +371,11 @@ class Diagnoser {
     }
     for (const RunGap& run : result_.gaps) result_.gap_before += run.before, result_.gap_after += run.after;
     if (result_.gap_after > result_.gap_before) {
-      give_up_everything();
+      // What makes light worse that the fit has not seen is not what is missing.
+      give_up_everything("runs that were held out fit worse with it");
+      for (RunGap& run : result_.gaps) run.after = run.before;
+      result_.gap_after = result_.gap_before;
+      result_.improved = base_;
       unexplained = result_.steps.front().p_of_fit < options_.alpha / 2;
     }
     for (const NamedEffect& effect : result_.effects) result_.verdict.push_back(effect.suspect.effect);
@@ -375,16 +383,11 @@ class Diagnoser {
     for (const NamedEffect& effect : result_.effects)
       if (!is_of_ice(effect)) result_.beside_ice.push_back(settings_of(effect));
   }
-  // What makes light worse that the fit has not seen is not what is missing.
-  void give_up_everything() {
+  void give_up_everything(const std::string& why) {
     for (const NamedEffect& effect : result_.effects)
-      result_.remarks.push_back(
-          fmt::format("{} was given up: runs that were held out fit worse with it", text_of(effect.suspect)));
+      result_.remarks.push_back(fmt::format("{} was given up: {}", text_of(effect.suspect), why));
     result_.effects.clear(), spans_.clear(), parameters_.clear(), numbers_.clear();
     for (DiagnosisStep& step : result_.steps) step.added.reset();
-    for (RunGap& run : result_.gaps) run.after = run.before;
-    result_.gap_after = result_.gap_before;
-    result_.improved = base_;
   }
   std::vector<EffectSetting> settings_of(const NamedEffect& effect) const {
     std::vector<EffectSetting> settings;
