@@ -13,6 +13,7 @@
 #include "apps/planned_output.h"
 #include "data/base/error.h"
 #include "data/event_files.h"
+#include "data/event_stream.h"
 
 namespace floe {
 
@@ -26,16 +27,15 @@ struct MergeOptions {
 
 struct Part {
   std::string file;
-  EventFile content;
+  EventFileReader events;
   Json configuration;
   std::uint64_t shard = 1, shards = 1;
 };
 
-Part read_part(const std::string& file) {
-  Part part{file, read_event_file(file), {}, 1, 1};
-  if (!part.content.provenance)
-    throw InputError({file}, "a text of hits", "floe's own event files (.h5)", "floe import makes one of it");
-  part.configuration = Json::parse(part.content.provenance->configuration, nullptr, false);
+Part open_part(const std::string& file) {
+  Part part{file, EventFileReader(file), {}, 1, 1};
+  if (part.events.provenance().weighted) read_event_file(file);  // its sums are of the whole file
+  part.configuration = Json::parse(part.events.provenance().configuration, nullptr, false);
   if (part.configuration.is_object() && part.configuration.contains("shard")) {
     const Json& shard = part.configuration["shard"];
     if (!shard.is_array() || shard.size() != 2 || !shard[0].is_number_unsigned() ||
@@ -51,10 +51,10 @@ Part read_part(const std::string& file) {
 // Shards belong together when everything but their number is the same, and none is missing or there twice.
 void check_shards(const std::vector<Part>& parts) {
   const Part& first = parts.front();
-  const Provenance& source = *first.content.provenance;
+  const Provenance& source = first.events.provenance();
   std::vector<const Part*> found(first.shards, nullptr);
   for (const Part& part : parts) {
-    const Provenance& other = *part.content.provenance;
+    const Provenance& other = part.events.provenance();
     if (part.shards != first.shards)
       throw InputError({part.file}, fmt::format("shard {} of {}", part.shard, part.shards),
                        fmt::format("one of {} shards, like {}", first.shards, first.file));
@@ -62,6 +62,9 @@ void check_shards(const std::vector<Part>& parts) {
         other.detector_hash != source.detector_hash || other.version != source.version)
       throw InputError({part.file}, "a shard of another simulation",
                        fmt::format("the settings, ice, detector and version of {}", first.file));
+    if (part.events.size() != first.events.size())
+      throw InputError({part.file}, fmt::format("{} events", part.events.size()),
+                       fmt::format("{}, as in {}", first.events.size(), first.file));
     if (part.shard < 1 || part.shard > part.shards)
       throw InputError({part.file}, fmt::format("shard {} of {}", part.shard, part.shards),
                        "k of K with 1 <= k <= K");
@@ -78,43 +81,71 @@ void check_shards(const std::vector<Part>& parts) {
                      "all shards of the simulation");
 }
 
-// The events of all shards, hits in the order of the shards.
-std::vector<Event> joined_events(std::vector<Part>& parts) {
-  std::sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.shard < b.shard; });
-  std::vector<Event> events = std::move(parts.front().content.events);
-  for (std::size_t p = 1; p < parts.size(); ++p)
-    for (std::size_t e = 0; e < events.size(); ++e) {
-      const auto& hits = parts[p].content.events.at(e).hits;
-      events[e].hits.insert(events[e].hits.end(), hits.begin(), hits.end());
-    }
-  return events;
-}
-
-// The events of different files, which must have different names.
-std::vector<Event> listed_events(std::vector<Part>& parts) {
+// The events of different files must have different names.
+void check_events(const std::vector<Part>& parts) {
   std::map<std::string, std::string> file_of;
-  std::vector<Event> events;
-  for (Part& part : parts) {
-    const Provenance &here = *part.content.provenance, &first = *parts.front().content.provenance;
+  const Provenance& first = parts.front().events.provenance();
+  for (const Part& part : parts) {
+    const Provenance& here = part.events.provenance();
     if (here.detector_hash != first.detector_hash)
       throw InputError({part.file}, "events of detector " + here.detector_name,
                        fmt::format("the detector of {}, {}", parts.front().file, first.detector_name));
     if (here.pulses != first.pulses)
       throw InputError({part.file}, here.pulses ? "pulses" : "photons",
                        fmt::format("{}, as in {}", first.pulses ? "pulses" : "photons", parts.front().file));
-    for (Event& event : part.content.events) {
-      const auto [known, is_new] = file_of.emplace(event.id, part.file);
+    for (std::size_t e = 0; e < part.events.size(); ++e) {
+      const auto [known, is_new] = file_of.emplace(part.events.id(e), part.file);
       if (!is_new)
-        throw InputError({part.file}, fmt::format("event {} again", event.id), "events of different names",
+        throw InputError({part.file}, fmt::format("event {} again", part.events.id(e)),
+                         "events of different names",
                          fmt::format("One of this name is in {}", known->second));
-      events.push_back(std::move(event));
     }
   }
-  return events;
+}
+
+struct Counts {
+  std::size_t events = 0, hits = 0;
+};
+
+// Adds event `e` of a file to the event begun last, with all that stands beside its hits.
+void append(const EventFileReader& from, std::size_t e, const std::vector<Hit>& hits, EventFileWriter& to) {
+  to.append(hits);
+  const auto beside = [](const auto& rows, const auto& write) {
+    if (!rows.empty()) write(rows);
+  };
+  beside(from.photons(e), [&](const auto& rows) { to.append_photons(rows); });
+  beside(from.photoelectrons(e), [&](const auto& rows) { to.append_photoelectrons(rows); });
+  beside(from.waveforms(e), [&](const auto& rows) { to.append_waveforms(rows); });
+}
+
+// One event at a time. Of shards, hits in the order of the shards.
+Counts copy_shards(std::vector<Part>& parts, EventFileWriter& writer) {
+  std::sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.shard < b.shard; });
+  Counts counts;
+  for (std::size_t e = 0; e < parts.front().events.size(); ++e, ++counts.events)
+    for (const Part& part : parts) {
+      const Event event = part.events.read(e);
+      if (&part == &parts.front()) writer.begin_event(event);
+      append(part.events, e, event.hits, writer);
+      counts.hits += event.hits.size();
+    }
+  return counts;
+}
+
+Counts copy_events(const std::vector<Part>& parts, EventFileWriter& writer) {
+  Counts counts;
+  for (const Part& part : parts)
+    for (std::size_t e = 0; e < part.events.size(); ++e, ++counts.events) {
+      const Event event = part.events.read(e);
+      writer.begin_event(event);
+      append(part.events, e, event.hits, writer);
+      counts.hits += event.hits.size();
+    }
+  return counts;
 }
 
 Provenance provenance_of(const std::vector<Part>& parts, bool shards, const std::string& command_line) {
-  Provenance provenance = *parts.front().content.provenance;
+  Provenance provenance = parts.front().events.provenance();
   provenance.command = command_line;
   if (shards) {
     provenance.configuration = parts.front().configuration.dump();
@@ -123,11 +154,11 @@ Provenance provenance_of(const std::vector<Part>& parts, bool shards, const std:
   Json configuration = {{"command", "merge"}, {"files", Json::array()}};
   for (const Part& part : parts)
     configuration["files"].push_back({{"file", part.file},
-                                      {"ice_hash", part.content.provenance->ice_hash},
+                                      {"ice_hash", part.events.provenance().ice_hash},
                                       {"configuration", part.configuration}});
   provenance.configuration = configuration.dump();
   provenance.weighted = std::any_of(parts.begin(), parts.end(),
-                                    [](const Part& part) { return part.content.provenance->weighted; });
+                                    [](const Part& part) { return part.events.provenance().weighted; });
   return provenance;
 }
 
@@ -135,30 +166,25 @@ void run_merge(const MergeOptions& options, const std::string& command_line) {
   require_event_file_name(options.to);
   PlannedOutput json(options.output.json);
   std::vector<Part> parts;
-  for (const std::string& file : options.from) parts.push_back(read_part(file));
+  for (const std::string& file : options.from) parts.push_back(open_part(file));
   const bool shards =
       std::any_of(parts.begin(), parts.end(), [](const Part& part) { return part.shards > 1; });
-  if (shards) check_shards(parts);
-  const Provenance provenance = provenance_of(parts, shards, command_line);
-  const std::vector<Event> events = shards ? joined_events(parts) : listed_events(parts);
-
-  EventFileWriter writer(options.to, provenance);
-  std::size_t hits = 0;
-  for (const Event& event : events) {
-    writer.begin_event(event);
-    writer.append(event.hits);
-    hits += event.hits.size();
-  }
+  if (shards)
+    check_shards(parts);
+  else
+    check_events(parts);
+  EventFileWriter writer(options.to, provenance_of(parts, shards, command_line));
+  const Counts counts = shards ? copy_shards(parts, writer) : copy_events(parts, writer);
   json.write(json_text({{"output", options.to},
                         {"files", parts.size()},
                         {"shards", shards},
-                        {"events", events.size()},
-                        {"hits", hits}}));
+                        {"events", counts.events},
+                        {"hits", counts.hits}}));
   writer.close();
   json.commit();
   if (!options.output.quiet)
     fmt::print("{}: {} {}{}, {} event{}, {} hits\n", options.to, parts.size(), shards ? "shard" : "file",
-               parts.size() == 1 ? "" : "s", events.size(), events.size() == 1 ? "" : "s", hits);
+               parts.size() == 1 ? "" : "s", counts.events, counts.events == 1 ? "" : "s", counts.hits);
 }
 
 }  // namespace
@@ -178,7 +204,9 @@ void add_merge(CLI::App& floe, const std::string& command_line) {
       "  floe simulate --flasher 63,20 --photons 1e7 --shard 1/2 -o part1.h5\n"
       "  floe simulate --flasher 63,20 --photons 1e7 --shard 2/2 -o part2.h5\n"
       "  floe merge part1.h5 part2.h5 -o whole.h5\n"
-      "The merged shards hold the hits of the whole run, photon by photon.");
+      "The merged shards hold the hits of the whole run, photon by photon. Photons, photoelectrons and "
+      "waveforms "
+      "that stand beside pulses are kept.");
   app.callback([options, command_line] { run_merge(*options, command_line); });
 }
 

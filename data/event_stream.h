@@ -18,6 +18,7 @@ class EventFileReader {
   explicit EventFileReader(const std::filesystem::path& path);
   ~EventFileReader();
   EventFileReader(EventFileReader&&) noexcept;
+  EventFileReader& operator=(EventFileReader&&) noexcept;
 
   const Provenance& provenance() const;
   std::size_t size() const;                        // events

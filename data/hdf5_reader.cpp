@@ -269,6 +269,7 @@ struct EventFileReader::Impl {
 EventFileReader::EventFileReader(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(path)) {}
 EventFileReader::~EventFileReader() = default;
 EventFileReader::EventFileReader(EventFileReader&&) noexcept = default;
+EventFileReader& EventFileReader::operator=(EventFileReader&&) noexcept = default;
 
 const Provenance& EventFileReader::provenance() const {
   return impl_->provenance;

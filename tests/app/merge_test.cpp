@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "data/event_files.h"
+#include "data/event_stream.h"
 #include "tests/app/floe_runner.h"
 #include "tests/unit/data/temporary_folder.h"
 
@@ -62,6 +63,31 @@ TEST_F(Merge, PutsDifferentEventsTogether) {
   ASSERT_EQ(events.size(), 2U);
   EXPECT_EQ(events[1].id, "flasher-63-20");
   expect_error(floe("merge one.h5 both.h5 -o x.h5"), 3, "again");
+}
+
+TEST_F(Merge, KeepsWhatStandsBesidePulses) {
+  floe_well(std::string(run) + "-o light.h5");
+  floe_well("simulate --flasher 63,20 --photons 1e6 --quiet -o flash.h5");
+  for (const char* name : {"light", "flash"})
+    floe_well(std::string("respond ") + name + ".h5 --keep photons,photoelectrons,waveforms --quiet -o " +
+              name + "-record.h5");
+  floe_well("merge light-record.h5 flash-record.h5 -o both.h5");
+  const EventFileReader both(folder_.path() / "both.h5");
+  ASSERT_EQ(both.size(), 2U);
+  std::size_t e = 0;
+  for (const char* name : {"light", "flash"}) {
+    const EventFileReader alone(folder_.path() / (std::string(name) + "-record.h5"));
+    EXPECT_GT(alone.photons(0).size(), 0U) << name;
+    EXPECT_EQ(both.photons(e).size(), alone.photons(0).size()) << name;
+    EXPECT_GT(alone.photoelectrons(0).size(), 0U) << name;
+    EXPECT_EQ(both.photoelectrons(e).size(), alone.photoelectrons(0).size()) << name;
+    const auto waveforms = both.waveforms(e), expected = alone.waveforms(0);
+    ASSERT_EQ(waveforms.size(), expected.size()) << name;
+    ASSERT_GT(expected.size(), 0U) << name;
+    EXPECT_EQ(waveforms.back().counts, expected.back().counts) << name;
+    EXPECT_TRUE(both.read(e).readout.has_value()) << name;
+    ++e;
+  }
 }
 
 TEST_F(Merge, RefusesWrongShards) {
