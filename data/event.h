@@ -50,6 +50,11 @@ struct Event {
   std::optional<Readout> readout = {};     // when the hits are pulses of which that is known
 };
 
+// How late its pulses are; nothing for photons.
+inline std::vector<ExpectedDelay> late_pulses(const Event& event) {
+  return event.readout ? event.readout->delays : std::vector<ExpectedDelay>();
+}
+
 // Where a file came from: enough to make it again.
 struct Provenance {
   std::string version;        // of floe

@@ -179,7 +179,7 @@ struct EventFileReader::Impl {
   }
   ~Impl() {
     const Hdf5Silence silence;
-    events.reset(), particles.reset(), hits.reset(), weights.reset(), unusable.reset();
+    events.reset(), particles.reset(), hits.reset(), weights.reset(), unusable.reset(), delays.reset();
     photons.reset(), photoelectrons.reset(), waveforms.reset(), samples.reset();
     file = {};
   }
@@ -208,7 +208,7 @@ struct EventFileReader::Impl {
     if (has_table(file, "flashers")) read_flashers(TableReader<FlasherRow>(file, where), ranges.events);
     if (has_table(file, "readouts"))
       read_readouts(TableReader<ReadoutRow>(file, where), TableReader<ModuleRow>(file, where), ranges.events);
-    open_if_there(unusable), open_if_there(photons), open_if_there(photoelectrons);
+    open_if_there(unusable), open_if_there(delays), open_if_there(photons), open_if_there(photoelectrons);
     if (open_if_there(waveforms)) samples.emplace(file, where);
   }
 
@@ -247,6 +247,25 @@ struct EventFileReader::Impl {
     });
   }
 
+  // Rows of an event as they are, each checked.
+  template <typename Row>
+  std::vector<Row> rows(const TableReader<Row>& table, std::size_t event) const {
+    return values(table, table.rows_of(event), [](const Row& row) { return row; });
+  }
+
+  std::vector<ExpectedDelay> delays_of(std::size_t event) const {
+    std::vector<ExpectedDelay> list;
+    double sum = 0;
+    for (const DelayRow& row : rows(*delays, event)) {
+      list.push_back(delay_of(row));
+      sum += row.share;
+    }
+    if (sum > 1)
+      throw InputError(where, fmt::format("shares of event {} in 'delays' with a sum of {:g}", event, sum),
+                       "1 at most", remake_advice);
+    return list;
+  }
+
   std::pair<hsize_t, hsize_t> range(const std::vector<hsize_t>& ends, std::size_t event) const {
     return {event == 0 ? 0 : ends[event - 1], ends[event]};
   }
@@ -259,6 +278,7 @@ struct EventFileReader::Impl {
   std::optional<TableReader<HitRow>> hits;
   std::optional<TableReader<WeightRow>> weights;
   std::optional<TableReader<UnusableRow>> unusable;
+  std::optional<TableReader<DelayRow>> delays;
   std::optional<TableReader<PhotonRow>> photons;
   std::optional<TableReader<PhotoelectronRow>> photoelectrons;
   std::optional<TableReader<WaveformRow>> waveforms;
@@ -291,10 +311,11 @@ Event EventFileReader::read(std::size_t event) const {
     result.truth =
         impl_->values(*impl_->particles, impl_->range(impl_->ranges.particle_end, event), particle_of);
     result.hits = impl_->values(*impl_->hits, impl_->range(impl_->ranges.hit_end, event), hit_of);
-    if (result.readout && impl_->unusable)
-      for (const UnusableRow& row : impl_->values(*impl_->unusable, impl_->unusable->rows_of(event),
-                                                  [](const UnusableRow& same) { return same; }))
+    if (!result.readout) return;
+    if (impl_->unusable)
+      for (const UnusableRow& row : impl_->rows(*impl_->unusable, event))
         result.readout->unusable.push_back(*unusable_of(row));
+    if (impl_->delays) result.readout->delays = impl_->delays_of(event);
   });
   return result;
 }

@@ -42,6 +42,12 @@ constexpr std::array unusable_columns = {
     FLOE_COLUMN(UnusableRow, dom, int32),      FLOE_COLUMN(UnusableRow, begin_ns, float64),
     FLOE_COLUMN(UnusableRow, end_ns, float64), FLOE_COLUMN(UnusableRow, reason, text),
 };
+constexpr std::array delay_columns = {
+    FLOE_COLUMN(DelayRow, event, uint64),
+    FLOE_COLUMN(DelayRow, share, float64),
+    FLOE_COLUMN(DelayRow, begin_ns, float64),
+    FLOE_COLUMN(DelayRow, end_ns, float64),
+};
 constexpr std::array photoelectron_columns = {
     FLOE_COLUMN(PhotoelectronRow, event, uint64),    FLOE_COLUMN(PhotoelectronRow, repeat, int32),
     FLOE_COLUMN(PhotoelectronRow, string, int32),    FLOE_COLUMN(PhotoelectronRow, dom, int32),
@@ -97,6 +103,9 @@ std::span<const Column> Table<ReadoutRow>::columns() {
 std::span<const Column> Table<UnusableRow>::columns() {
   return unusable_columns;
 }
+std::span<const Column> Table<DelayRow>::columns() {
+  return delay_columns;
+}
 std::span<const Column> Table<PhotoelectronRow>::columns() {
   return photoelectron_columns;
 }
@@ -132,11 +141,8 @@ ReadoutRow row_of(std::uint64_t event, const Readout& readout) {
   return {event, readout.begin, readout.end, after.share, after.begin, after.end};
 }
 Readout readout_of(const ReadoutRow& row) {
-  return {row.begin_ns,
-          row.end_ns,
-          {row.afterpulse_share, row.afterpulse_begin_ns, row.afterpulse_end_ns},
-          {},
-          nullptr};
+  return {row.begin_ns, row.end_ns, {row.afterpulse_share, row.afterpulse_begin_ns, row.afterpulse_end_ns},
+          {},           nullptr,    {}};
 }
 
 UnusableRow row_of(std::uint64_t event, const UnusableTimes& times) {
@@ -149,6 +155,13 @@ std::optional<UnusableTimes> unusable_of(const UnusableRow& row) {
   if (!reason) return {};
   return UnusableTimes{
       {row.string, row.dom}, row.begin_ns, row.end_ns, static_cast<UnusableTimes::Reason>(*reason)};
+}
+
+DelayRow row_of(std::uint64_t event, const ExpectedDelay& delay) {
+  return {event, delay.share, delay.begin, delay.end};
+}
+ExpectedDelay delay_of(const DelayRow& row) {
+  return {row.share, row.begin_ns, row.end_ns};
 }
 
 PhotoelectronRow row_of(std::uint64_t event, const ModulePhotoelectron& pe) {
@@ -201,6 +214,11 @@ std::optional<Problem> problem_of(const UnusableRow& row) {
   if (auto problem = range_problem(row.begin_ns, row.end_ns)) return problem;
   if (unusable_of(row)) return {};
   return Problem{"a reason of another name", "saturated or dead"};
+}
+
+std::optional<Problem> problem_of(const DelayRow& row) {
+  if (!(row.share >= 0 && row.share <= 1)) return Problem{fmt::format("a share {}", row.share), "0 to 1"};
+  return range_problem(row.begin_ns, row.end_ns);
 }
 
 }  // namespace hdf5

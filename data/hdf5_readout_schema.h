@@ -20,6 +20,10 @@ struct UnusableRow {
   double begin_ns, end_ns;
   char reason[16];
 };
+struct DelayRow {
+  std::uint64_t event;
+  double share, begin_ns, end_ns;
+};
 struct PhotonRow {
   std::uint64_t event;
   HitRow hit;
@@ -52,6 +56,7 @@ struct SampleRow {
 FLOE_TABLE(ModuleRow, "modules", 4096)
 FLOE_TABLE(ReadoutRow, "readouts", 256)
 FLOE_TABLE(UnusableRow, "unusable", 2048)
+FLOE_TABLE(DelayRow, "delays", 1024)
 FLOE_TABLE(PhotonRow, "photons", 8192)
 FLOE_TABLE(PhotoelectronRow, "photoelectrons", 8192)
 FLOE_TABLE(WaveformRow, "waveforms", 1024)
@@ -61,9 +66,11 @@ FLOE_TABLE(SampleRow, "samples", 65536)
 ModuleRow row_of(const RecordingModule& module);
 RecordingModule module_of(const ModuleRow& row);
 ReadoutRow row_of(std::uint64_t event, const Readout& readout);
-Readout readout_of(const ReadoutRow& row);  // without modules and unusable times
+Readout readout_of(const ReadoutRow& row);  // without modules, unusable times, delays
 UnusableRow row_of(std::uint64_t event, const UnusableTimes& times);
 std::optional<UnusableTimes> unusable_of(const UnusableRow& row);  // none: the reason has no known name
+DelayRow row_of(std::uint64_t event, const ExpectedDelay& delay);
+ExpectedDelay delay_of(const DelayRow& row);
 PhotoelectronRow row_of(std::uint64_t event, const ModulePhotoelectron& photoelectron);
 std::optional<ModulePhotoelectron> photoelectron_of(const PhotoelectronRow& row);
 WaveformRow row_of(std::uint64_t event, const ModuleWaveform& waveform, std::uint64_t first_sample);
@@ -73,5 +80,6 @@ std::optional<ModuleWaveform> waveform_of(const WaveformRow& row);  // without i
 std::optional<Problem> problem_of(const ModuleRow& row);
 std::optional<Problem> problem_of(const ReadoutRow& row);
 std::optional<Problem> problem_of(const UnusableRow& row);
+std::optional<Problem> problem_of(const DelayRow& row);
 
 }  // namespace floe::hdf5

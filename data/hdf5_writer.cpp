@@ -45,7 +45,7 @@ struct EventFileWriter::Impl {
   ~Impl() {
     const Hdf5Silence silence;  // what an unfinished file complains about is no news
     hits.reset(), particles.reset(), events.reset(), weights.reset(), flashers.reset();
-    readouts.reset(), unusable.reset();
+    readouts.reset(), unusable.reset(), delays.reset();
     photons.reset(), photoelectrons.reset(), waveforms.reset(), samples.reset();
     file = {};
   }
@@ -55,7 +55,7 @@ struct EventFileWriter::Impl {
     write_provenance(file, provenance);
     events.emplace(file), particles.emplace(file);
     hits.emplace(file, provenance.pulses ? pulse_columns() : Table<HitRow>::columns());
-    if (provenance.pulses) readouts.emplace(file), unusable.emplace(file);
+    if (provenance.pulses) readouts.emplace(file), unusable.emplace(file), delays.emplace(file);
     if (provenance.weighted) weights.emplace(file);
   }
 
@@ -85,6 +85,7 @@ struct EventFileWriter::Impl {
     modules = readout.modules;
     readouts->append(row_of(events->size(), readout));
     for (const UnusableTimes& times : readout.unusable) unusable->append(row_of(events->size(), times));
+    for (const ExpectedDelay& delay : readout.delays) delays->append(row_of(events->size(), delay));
   }
   void write_modules() {
     TableWriter<ModuleRow> table(file);
@@ -103,6 +104,7 @@ struct EventFileWriter::Impl {
   std::optional<TableWriter<FlasherRow>> flashers;  // only after an event that is a flasher run
   std::optional<TableWriter<ReadoutRow>> readouts;  // only in files of pulses, as the next
   std::optional<TableWriter<UnusableRow>> unusable;
+  std::optional<TableWriter<DelayRow>> delays;
   std::shared_ptr<const RecordingModules> modules;
   std::optional<TableWriter<PhotonRow>> photons;  // only when they were appended, as the rest
   std::optional<TableWriter<PhotoelectronRow>> photoelectrons;
@@ -189,7 +191,8 @@ void EventFileWriter::close() {
     impl_->hits->close(), impl_->particles->close(), impl_->events->close();
     if (impl_->weights) impl_->weights->close();
     if (impl_->flashers) impl_->flashers->close();
-    if (impl_->readouts) impl_->write_modules(), impl_->readouts->close(), impl_->unusable->close();
+    if (impl_->readouts)
+      impl_->write_modules(), impl_->readouts->close(), impl_->unusable->close(), impl_->delays->close();
     if (impl_->photons) impl_->photons->close();
     if (impl_->photoelectrons) impl_->photoelectrons->close();
     if (impl_->waveforms) impl_->waveforms->close(), impl_->samples->close();

@@ -28,6 +28,12 @@ struct ExpectedAfterpulses {
   bool operator==(const ExpectedAfterpulses&) const = default;
 };
 
+// A share of the charge comes so much later than its light, evenly between two times [ns].
+struct ExpectedDelay {
+  double share = 0, begin = 0, end = 0;
+  bool operator==(const ExpectedDelay&) const = default;
+};
+
 // Times at which a module's record is not what the light was.
 struct UnusableTimes {
   enum class Reason { saturated, dead };
@@ -42,6 +48,7 @@ struct Readout {
   ExpectedAfterpulses afterpulses;
   std::vector<UnusableTimes> unusable;
   std::shared_ptr<const RecordingModules> modules;  // the same for all events of a file; never null
+  std::vector<ExpectedDelay> delays;  // shares of at most 1 together; the rest comes with its light
 };
 
 // Of a photoelectron in the simulation of the electronics.

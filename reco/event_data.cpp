@@ -46,6 +46,20 @@ bool is_left_out(std::span<const TimeWindow> windows, ModuleId module, double ti
   });
 }
 
+// Averages over repetitions have scattered less; what they say is not asked, as cascades come once.
+double dispersion_of_single_pulses(const std::vector<ModuleData>& modules) {
+  constexpr int least = 20;
+  int count = 0;
+  double sum = 0, squares = 0;
+  for (const ModuleData& module : modules) {
+    if (module.charges.size() != 1) continue;
+    ++count;
+    sum += module.charge;
+    squares += module.charge * module.charge;
+  }
+  return count < least ? 1 : std::max(1.0, squares / sum);
+}
+
 }  // namespace
 
 EventData::EventData(const Detector& detector, const Event& event, const DataSelection& asked)
@@ -98,6 +112,7 @@ EventData::EventData(const Detector& detector, const Event& event, const DataSel
     data.saturated = data.charge >= selection.charge_cap * repeats_;
     cut_into_bins(data, block_edges(data.times, data.charges, begin(), end()));
   }
+  if (event.readout) charge_dispersion_ = dispersion_of_single_pulses(lit_);
 }
 
 // Modules that were off, times that cannot be used, and dark noise unless the user says how much there is.

@@ -59,6 +59,9 @@ class EventData {
   const std::vector<std::uint32_t>& dark() const { return dark_; }  // the others that are on: one bin each
   double dark_noise(std::uint32_t module) const;                    // expected dark counts of one event
   double charge() const { return charge_; }
+  // Variance of charges in units of that of as many photoelectrons: 1 for photons; for pulses told by modules
+  // with a single one, as n charges q have the variance n <q^2>.
+  double charge_dispersion() const { return charge_dispersion_; }
   double first_time() const { return first_; }
   double last_time() const { return last_; }
   // Where the outermost bins end, for all that needs a finite width [ns].
@@ -77,7 +80,7 @@ class EventData {
   DataSelection selection_;  // with what the event's readout says
   ExpectedAfterpulses afterpulses_;
   std::string id_;
-  double repeats_ = 1, charge_ = 0, first_ = 0, last_ = 0;
+  double repeats_ = 1, charge_ = 0, charge_dispersion_ = 1, first_ = 0, last_ = 0;
   std::vector<ModuleData> lit_;
   std::vector<std::uint32_t> dark_;
 };

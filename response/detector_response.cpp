@@ -184,7 +184,8 @@ RespondedEvent DetectorResponse::respond(const Event& event, const ResponseRecor
   const Window window = window_of(photons);
   RespondedEvent result;
   result.event = {event.id, {}, event.truth, event.repeats, event.flasher, {}};
-  result.event.readout = Readout{window.begin, window.end, settings_.afterpulses, {}, modules_};
+  result.event.readout = Readout{window.begin, window.end, settings_.afterpulses,
+                                 {},           modules_,   TransitTime(settings_.time).late_pulses()};
   const std::uint64_t source = stream_of(event.id);
   // As many repeats at a time as there are threads, so that memory does not grow with their number.
   const int together = repeats > 1 ? std::max(1, threads) : 1;

@@ -103,6 +103,16 @@ std::vector<Trial> trials(const ExtractionSettings& settings, const Digitisers& 
   return result;
 }
 
+// Whether some sample sees a good part of the pulse. What clipped samples hide may be as large as it likes: a
+// pulse of which only the far tail is seen would be given thousands of photoelectrons for a count.
+bool is_seen(const Trial& trial, const std::vector<Sample>& samples) {
+  constexpr double good_part = 0.01;  // of the height at its peak
+  return std::any_of(samples.begin(), samples.end(), [&](const Sample& sample) {
+    const PulseShape& shape = *sample.shape;
+    return shape(sample.time - trial.time) > good_part * shape(shape.peak_time());
+  });
+}
+
 Eigen::SparseMatrix<double> matrix_of(double charge, const std::vector<Trial>& tried,
                                       const std::vector<Sample>& samples) {
   std::vector<Eigen::Triplet<double>> entries;
@@ -148,7 +158,9 @@ std::vector<ExtractedPulse> put_together(const std::vector<Trial>& tried, const 
 Extraction extract_pulses(const ExtractionSettings& settings, const Digitisers& digitisers,
                           std::span<const Waveform> traces) {
   const Samples samples = samples_of(digitisers, traces);
-  const std::vector<Trial> tried = trials(settings, digitisers, traces, samples);
+  std::vector<Trial> tried = trials(settings, digitisers, traces, samples);
+  if (!samples.clipped.empty())
+    std::erase_if(tried, [&](const Trial& trial) { return !is_seen(trial, samples.list); });
   Extraction result{{}, samples.clipped};
   if (tried.empty()) return result;
   Eigen::VectorXd counts(static_cast<Eigen::Index>(samples.list.size()));

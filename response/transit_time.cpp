@@ -17,6 +17,16 @@ double TransitTime::peak_density(double time) const {
   return std::sqrt(2 / std::numbers::pi) / (settings_.rise + settings_.fall) * std::exp(-0.5 * z * z);
 }
 
+std::vector<ExpectedDelay> TransitTime::late_pulses() const {
+  const auto& s = settings_;
+  const double half = std::sqrt(3.0) * s.late_peak_width;  // of as wide a box
+  std::vector<ExpectedDelay> all{{s.shoulder_share, s.shoulder_begin, s.shoulder_end},
+                                 {s.late_peak_share, s.late_peak_time - half, s.late_peak_time + half},
+                                 {s.tail_share, s.tail_begin, s.tail_end}};
+  std::erase_if(all, [](const ExpectedDelay& delay) { return delay.share <= 0 || delay.begin >= delay.end; });
+  return all;
+}
+
 TransitTime::Arrival TransitTime::draw(RandomStream& stream) const {
   const auto& s = settings_;
   double kind = stream.uniform();

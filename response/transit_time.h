@@ -2,6 +2,8 @@
 // pulses (arXiv:1002.2442, section 4; arXiv:1612.05093, section 3.2).
 #pragma once
 
+#include <vector>
+
 #include "data/readout.h"
 #include "propagation/engine/random.h"
 
@@ -31,6 +33,9 @@ class TransitTime {
     PhotoelectronOrigin origin;
   };
   Arrival draw(RandomStream& stream) const;
+
+  // Late pulses, as fits expect them; prepulses stay below the discriminator.
+  std::vector<ExpectedDelay> late_pulses() const;
 
  private:
   double peak_mean() const;  // of the two halves, from where they meet [ns]

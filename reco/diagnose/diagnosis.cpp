@@ -77,7 +77,7 @@ class Diagnoser {
 
  private:
   RunRequest request(std::size_t r, double photons) const {
-    return {data_.runs[r].run, photons, options_.oversize, options_.seed, look_stream + r, options_.threads};
+    return request_of(data_.runs[r], options_, photons, look_stream + r);
   }
 
   Model current() const { return with_parameters(base_, parameters_, numbers_); }

@@ -139,14 +139,9 @@ class Surveyor {
   }
 
   RunRequest request(std::size_t r, std::uint64_t purpose, double photons) const {
-    return {data_.runs[r].run,
-            photons,
-            settings_.oversize,
-            settings_.seed,
-            first_stream + plan_.stream * streams_a_survey + r * streams_a_run + purpose,
-            settings_.threads,
-            noise_window(data_.runs[r], data_.runs[r].charge / look_.hits_per_photon[r]),
-            data_.runs[r].afterpulses};
+    return request_of(data_.runs[r], settings_, photons,
+                      first_stream + plan_.stream * streams_a_survey + r * streams_a_run + purpose,
+                      data_.runs[r].charge / look_.hits_per_photon[r]);
   }
 
   void look_at(std::size_t r) {

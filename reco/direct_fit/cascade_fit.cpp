@@ -64,11 +64,13 @@ ArrivalTimes arrival_times(const EventData& data, const ModuleData& lit, const E
   return result;
 }
 
-void measure_goodness(const Evaluation& evaluation, const FitOptions& options, CascadeFit& fit) {
+void measure_goodness(const Evaluation& evaluation, const EventData& data, const FitOptions& options,
+                      CascadeFit& fit) {
   fit.bins = evaluation.bins.size();
   fit.neg_llh = evaluation.neg_llh;
   fit.neg_llh_error = jackknife_error(evaluation.leave_one_out);
-  const PseudoLikelihood pseudo = draw_pseudo_data(evaluation.bins, options.model_error, options.seed);
+  const PseudoLikelihood pseudo =
+      draw_pseudo_data(evaluation.bins, options.model_error, data.charge_dispersion(), options.seed);
   fit.ndof = 2 * pseudo.mean - 7;
   fit.p_value = 0.5 * std::erfc((fit.neg_llh - 0.5 * fit.ndof) / (pseudo.spread * std::sqrt(2.0)));
 }
@@ -128,7 +130,7 @@ void find_result(ExpectationModel& light, const EventData& data, const FitOption
       evaluate_cascade(light, end.edges.empty() ? data : data.with_edges(end.edges), fit.cascade, photons,
                        options.oversize, evaluations, evaluation_stream, options.model_error);
   for (const LightSample& sample : evaluation.samples) fit.count_simulation(sample.propagated);
-  measure_goodness(evaluation, options, fit);
+  measure_goodness(evaluation, data, options, fit);
   for (const std::size_t i : data.brightest(pictured_modules))
     fit.arrival_times.push_back(arrival_times(data, data.lit()[i], evaluation, fit.cascade.time));
 }
@@ -161,7 +163,7 @@ CascadeFit fit_cascade(const Model& model, const Event& event, const FitOptions&
                        const Progress& progress) {
   check(options);
   const EventData data(*model.detector, event, options.selection);
-  SimulatedLight light(model, options.kind, options.seed, options.threads);
+  SimulatedLight light(model, options.kind, options.seed, options.threads, late_pulses(event));
   return fit_cascade(light, data, options, progress);
 }
 

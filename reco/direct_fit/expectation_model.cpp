@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "propagation/engine/random.h"
+
 namespace floe {
 
 void fill(LightSample& sample, std::size_t modules, std::vector<std::pair<std::uint32_t, float>>&& hits) {
@@ -17,8 +19,9 @@ void fill(LightSample& sample, std::size_t modules, std::vector<std::pair<std::u
   for (std::size_t i = 0; i < modules; ++i) sample.first[i + 1] += sample.first[i];
 }
 
-SimulatedLight::SimulatedLight(Model model, CascadeKind kind, std::uint64_t seed, int threads)
-    : model_(std::move(model)), kind_(kind), seed_(seed), threads_(threads) {}
+SimulatedLight::SimulatedLight(Model model, CascadeKind kind, std::uint64_t seed, int threads,
+                               std::vector<ExpectedDelay> delays)
+    : model_(std::move(model)), kind_(kind), seed_(seed), threads_(threads), delays_(std::move(delays)) {}
 
 const Simulator& SimulatedLight::simulator(double oversize) {
   auto& simulator = simulators_[oversize];
@@ -29,6 +32,18 @@ const Simulator& SimulatedLight::simulator(double oversize) {
 double SimulatedLight::photons_per_cascade(const CascadeParameters& cascade, double oversize) {
   const CascadeSource source(to_cascade(cascade, kind_), model_.acceptance.spectrum);
   return simulator(oversize).photons_to_propagate(source);
+}
+
+// The same for the same photon at the same module, so that simulations with common random numbers keep them.
+float SimulatedLight::delay(const LightRequest& request, const SimulatedHit& hit) const {
+  constexpr std::uint64_t purpose = std::uint64_t{0x64656c61} << 32, most_modules = 1 << 20;
+  if (delays_.empty()) return 0;
+  RandomStream random(seed_, request.stream ^ purpose, hit.photon * most_modules + hit.module);
+  double kind = random.uniform();
+  for (const ExpectedDelay& late : delays_)
+    if ((kind -= late.share) < 0)
+      return static_cast<float>(late.begin + (late.end - late.begin) * random.uniform());
+  return 0;
 }
 
 LightSample SimulatedLight::sample(const LightRequest& request) {
@@ -50,7 +65,7 @@ LightSample SimulatedLight::sample(const LightRequest& request) {
   options.fixed_number = true;
   std::vector<std::pair<std::uint32_t, float>> hits;
   const auto summary = walker.run(source, options, [&](std::span<const SimulatedHit> portion) {
-    for (const SimulatedHit& hit : portion) hits.emplace_back(hit.module, hit.time);
+    for (const SimulatedHit& hit : portion) hits.emplace_back(hit.module, hit.time + delay(request, hit));
   });
   result.propagated = summary.propagated;
   fill(result, model_.detector->size(), std::move(hits));

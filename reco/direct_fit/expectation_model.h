@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "data/readout.h"
 #include "propagation/engine/simulator.h"
 #include "reco/direct_fit/cascade_parameters.h"
 
@@ -46,21 +47,24 @@ class ExpectationModel {
   virtual LightSample sample(const LightRequest& request) = 0;
 };
 
-// Expected light by photon propagation.
+// Expected light by photon propagation; `delays`: of the tubes that saw it (Readout::delays).
 class SimulatedLight : public ExpectationModel {
  public:
-  SimulatedLight(Model model, CascadeKind kind, std::uint64_t seed, int threads);
+  SimulatedLight(Model model, CascadeKind kind, std::uint64_t seed, int threads,
+                 std::vector<ExpectedDelay> delays = {});
   const Model& model() const override { return model_; }
   double photons_per_cascade(const CascadeParameters& cascade, double oversize) override;
   LightSample sample(const LightRequest& request) override;
 
  private:
   const Simulator& simulator(double oversize);
+  float delay(const LightRequest& request, const SimulatedHit& hit) const;
 
   Model model_;
   CascadeKind kind_;
   std::uint64_t seed_;
   int threads_;
+  std::vector<ExpectedDelay> delays_;
   std::map<double, std::unique_ptr<Simulator>> simulators_;  // by oversize
 };
 

@@ -16,8 +16,10 @@ void add(std::vector<BinOfData>& bins, std::span<const BinOfData> part, double s
   }
 }
 
-// A bin's counts dealt out again.
-BinOfData redeal(const BinOfData& bin, double model_error, std::mt19937_64& random) {
+// A bin's counts dealt out again, as charges that scatter.
+BinOfData redeal(const BinOfData& bin, double model_error, double charge_dispersion,
+                 std::mt19937_64& random) {
+  constexpr double least_charge = 0.05;
   const auto all = static_cast<long>(std::lround(bin.data + bin.simulation));
   if (all == 0 || bin.saturated || bin.left_out) return bin;
   const double odds = bin.data_events / bin.simulation_events *
@@ -25,6 +27,9 @@ BinOfData redeal(const BinOfData& bin, double model_error, std::mt19937_64& rand
   BinOfData result = bin;
   result.data = double(std::binomial_distribution<long>(all, odds / (1 + odds))(random));
   result.simulation = double(all) - result.data;
+  if (charge_dispersion > 1 && result.data > 0)
+    result.data = std::max(least_charge, result.data + std::sqrt((charge_dispersion - 1) * result.data) *
+                                                           std::normal_distribution<double>()(random));
   return result;
 }
 
@@ -99,13 +104,14 @@ Difference difference(const Evaluation& a, const Evaluation& b) {
   return {a.neg_llh - b.neg_llh, jackknife_error(parts)};
 }
 
-PseudoLikelihood draw_pseudo_data(std::span<const BinOfData> bins, double model_error, std::uint64_t seed,
-                                  int draws) {
+PseudoLikelihood draw_pseudo_data(std::span<const BinOfData> bins, double model_error,
+                                  double charge_dispersion, std::uint64_t seed, int draws) {
   std::mt19937_64 random(seed);
   double sum = 0, square = 0;
   for (int k = 0; k < draws; ++k) {
     double value = 0;
-    for (const BinOfData& bin : bins) value += redeal(bin, model_error, random).likelihood(model_error).value;
+    for (const BinOfData& bin : bins)
+      value += redeal(bin, model_error, charge_dispersion, random).likelihood(model_error).value;
     sum += value;
     square += value * value;
   }

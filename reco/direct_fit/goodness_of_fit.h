@@ -45,8 +45,9 @@ struct PseudoLikelihood {
 // What -ln L would be if data and simulation had the same expectation in every bin, give or take the
 // log-normal model error: the counts of both together are dealt out again at random, in the ratio of their
 // events. Given the sum, that distribution is exact for any expectation, bright or dim. Edges of the bins
-// must follow neither the data nor this simulation. Saturated bins keep their value.
-PseudoLikelihood draw_pseudo_data(std::span<const BinOfData> bins, double model_error, std::uint64_t seed,
-                                  int draws = 60);
+// must follow neither the data nor this simulation. Saturated bins keep their value. Pulses have charges that
+// scatter more than counts do: EventData::charge_dispersion.
+PseudoLikelihood draw_pseudo_data(std::span<const BinOfData> bins, double model_error,
+                                  double charge_dispersion, std::uint64_t seed, int draws = 60);
 
 }  // namespace floe

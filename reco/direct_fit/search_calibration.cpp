@@ -109,9 +109,9 @@ void Search::calibrate(End& end, CalibrationNeed& need) {
   }
   end.light = frame.at(solution.step);
   end.covariance = solution.covariance;
-  if (options_.data_widened > 0)
-    end.covariance +=
-        options_.data_widened * std::max(0.0, solution.dispersion - 1) * solution.data_covariance;
+  const double scatter =
+      data_.charge_dispersion() - 1 + options_.data_widened * std::max(0.0, solution.dispersion - 1);
+  if (scatter > 0) end.covariance += scatter * solution.data_covariance;
   const Vector7 found = solution.covariance.diagonal().cwiseSqrt();
   end.pull = solution.leaves ? std::numeric_limits<double>::infinity()
                              : solution.step.cwiseAbs().cwiseQuotient(found).maxCoeff();

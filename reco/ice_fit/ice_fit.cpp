@@ -79,14 +79,10 @@ class Fit {
   Model model() const { return with_parameters(base_, fit_.parameters, fit_.numbers); }
 
   RunRequest request(std::size_t r, std::uint64_t purpose, double photons) const {
-    return {data_.runs[r].run,
-            photons,
-            options_.oversize,
-            options_.seed,
-            first_stream + static_cast<std::uint64_t>(round_) * streams_a_round + r * streams_a_run + purpose,
-            options_.threads,
-            noise_window(data_.runs[r], states_[r].brightness),
-            data_.runs[r].afterpulses};
+    return request_of(
+        data_.runs[r], options_, photons,
+        first_stream + static_cast<std::uint64_t>(round_) * streams_a_round + r * streams_a_run + purpose,
+        states_[r].brightness);
   }
 
   // How much light of each run is seen, in the starting model, and which receivers cannot be right.

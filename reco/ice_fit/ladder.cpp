@@ -49,8 +49,7 @@ class Climb {
 
  private:
   RunRequest request(std::size_t r, std::uint64_t stream, double photons) const {
-    return {data_.runs[r].run, photons,    options_.fit.oversize,
-            options_.fit.seed, stream + r, options_.fit.threads};
+    return request_of(data_.runs[r], options_.fit, photons, stream + r);
   }
 
   // Held-out runs are compared in bins of the base's light, the same for every rung.

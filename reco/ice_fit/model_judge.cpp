@@ -29,14 +29,8 @@ ModelJudge::ModelJudge(const Model& base, const FlasherData& data, const FirstLo
 }
 
 RunRequest ModelJudge::request(std::size_t run, std::uint64_t purpose, double photons) const {
-  return {data_.runs[run].run,
-          photons,
-          settings_.oversize,
-          settings_.seed,
-          stream_ + purpose * data_.runs.size() + run,
-          settings_.threads,
-          noise_window(data_.runs[run], data_.runs[run].charge / hits_per_photon_[run]),
-          data_.runs[run].afterpulses};
+  return request_of(data_.runs[run], settings_, photons, stream_ + purpose * data_.runs.size() + run,
+                    data_.runs[run].charge / hits_per_photon_[run]);
 }
 
 RunMeasurement ModelJudge::measure(const Model& model, std::size_t run) const {

@@ -53,6 +53,18 @@ NoiseWindow noise_window(const RunData& run, double brightness) {
   return {run.first, run.last, brightness > 0 ? run.repeats / brightness : 0, run.noise_rate};
 }
 
+RunRequest request_of(const RunData& run, const RunSettings& settings, double photons, std::uint64_t stream,
+                      double brightness) {
+  return {run.run,
+          photons,
+          settings.oversize,
+          settings.seed,
+          stream,
+          settings.threads,
+          noise_window(run, brightness),
+          run.afterpulses};
+}
+
 Scout scout_run(const Model& model, RunRequest request, double time_zero) {
   request.photons *= scout_share;
   Scout scout{simulate_run(model, request), request.photons};

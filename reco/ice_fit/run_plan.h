@@ -43,9 +43,13 @@ void check(const RunSettings& settings);  // throws UsageError for values out of
 // N of a run's simulation.
 double photons_wanted(const RunData& run, double hits_per_photon, const LightBudget& budget);
 
-// Of a run of this brightness, as a RunRequest holds it; none while that is not known yet (0). Noise of a
-// readout lasts as long as its pulses do.
+// When a run of this brightness, N of the data, has dark noise; none while that is not known yet (0). Noise
+// of a readout lasts as long as its pulses do.
 NoiseWindow noise_window(const RunData& run, double brightness);
+
+// A run as it is simulated: N photons, with the noise and the afterpulses of its record.
+RunRequest request_of(const RunData& run, const RunSettings& settings, double photons, std::uint64_t stream,
+                      double brightness = 0);
 
 // What tells a run's bins: a simulation of a share of its light, `request.photons` being all of it, moved by
 // `time_zero` [ns]. It favours no data, and is independent of simulations with other streams.

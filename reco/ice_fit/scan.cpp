@@ -82,13 +82,9 @@ class Scan {
   }
 
  private:
-  RunRequest request(std::size_t r, Purpose purpose, double photons) const {
-    return {data_.runs[r].run,
-            photons,
-            options_.oversize,
-            options_.seed,
-            first_stream + r * streams_a_run + purpose,
-            options_.threads};
+  RunRequest request(std::size_t r, Purpose purpose, double photons, double brightness = 0) const {
+    return request_of(data_.runs[r], options_, photons, first_stream + r * streams_a_run + purpose,
+                      brightness);
   }
 
   void plan_runs() {
@@ -115,7 +111,7 @@ class Scan {
     const RunData& run = data_.runs[r];
     const double photons = photons_wanted(run, hits_per_photon, options_.light),
                  brightness = run.charge / hits_per_photon;
-    Scout scout = scout_run(base_, request(r, bins_stream, photons), 0);
+    Scout scout = scout_run(base_, request(r, bins_stream, photons, brightness), 0);
     scan_.photons += scout.simulated.propagated;
     double time_zero = 0, shift = 2 * settled_time;
     for (int i = 0; i < most_searches && std::abs(shift) > settled_time; ++i) {
@@ -136,7 +132,8 @@ class Scan {
     std::vector<RunResult> results;
     double sum = 0, halves = 0;
     for (const RunPlan& plan : plans_) {
-      const SimulatedRun simulated = simulate_run(model, request(plan.run, grid_stream, plan.photons));
+      const SimulatedRun simulated =
+          simulate_run(model, request(plan.run, grid_stream, plan.photons, plan.start.brightness));
       scan_.photons += simulated.propagated;
       const RunMeasurement best = measure_finely(simulated, plan);
       sum += best.neg_llh;

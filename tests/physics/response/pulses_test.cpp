@@ -126,6 +126,21 @@ TEST(Pulses, OfBrightFlashesAreSaidToBeSaturated) {
   EXPECT_GT(bright.unusable.front().end, 25);
 }
 
+// What no digitiser could follow may be lost, but is not made more: far tails say nothing about its charge.
+TEST(Pulses, BeyondSaturationHoldNoMoreThanTheLight) {
+  const ModuleElectronics electronics(plain_settings());
+  for (const auto& [photons, over] : {std::pair(20000, 300.0), {100000, 1200.0}, {50000, 100.0}}) {
+    RandomStream light(3, 4, 5), stream(5, 6, 7);
+    std::vector<double> times;
+    for (int i = 0; i < photons; ++i) times.push_back(over * light.uniform());
+    const TubeOutput tube = electronics.tube_output(times, 1, 0, 1, true, stream);
+    double true_charge = 0;
+    for (const Photoelectron& pe : tube.before) true_charge += pe.charge;
+    EXPECT_LT(charge_of(pulses_of(electronics, tube, true)), 1.1 * true_charge)
+        << photons << " photons in " << over << " ns";
+  }
+}
+
 // A known number: 560 Hz of photoelectrons, of which bursts lose those that fall into dead times.
 TEST(Pulses, OfDarkNoiseHaveTheRateThatIsFound) {
   const ModuleElectronics electronics{ResponseSettings()};

@@ -103,6 +103,30 @@ TEST(TransitTime, OtherPulsesHaveTheirSharesAndTimes) {
   expect_share(tail, settings.tail_share);
 }
 
+// What fits are told of late pulses has the share, mean and width of what is drawn.
+TEST(TransitTime, LatePulsesAreAsExpected) {
+  const TransitTime time;
+  RandomStream stream(3, 1, 4);
+  std::vector<double> late;
+  for (int i = 0; i < many; ++i)
+    if (const auto arrival = time.draw(stream); arrival.origin == PhotoelectronOrigin::late)
+      late.push_back(arrival.delay);
+  double share = 0, mean = 0, square = 0;
+  for (const ExpectedDelay& delay : time.late_pulses()) {
+    const double middle = (delay.begin + delay.end) / 2, width = delay.end - delay.begin;
+    share += delay.share;
+    mean += delay.share * middle;
+    square += delay.share * (middle * middle + width * width / 12);
+  }
+  mean /= share;
+  const double deviation = std::sqrt(square / share - mean * mean), n = static_cast<double>(late.size());
+  EXPECT_NEAR(n, many * share, 5 * std::sqrt(many * share));
+  EXPECT_NEAR(mean_of(late), mean, 5 * deviation / std::sqrt(n));
+  double variance = 0;
+  for (const double delay : late) variance += (delay - mean) * (delay - mean) / n;
+  EXPECT_NEAR(std::sqrt(variance), deviation, 5 * deviation / std::sqrt(2 * n));
+}
+
 TEST(Afterpulses, AreEvenInTheLogarithmOfTime) {
   const ExpectedAfterpulses after{0.059, 300, 11000};
   RandomStream stream(10, 11, 12);

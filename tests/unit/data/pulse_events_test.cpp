@@ -24,7 +24,8 @@ Event pulse_event(const std::string& id, std::size_t count,
   event.id = id;
   event.hits = pulse_hits(count);
   for (Hit& hit : event.hits) hit.width = 1.5f;
-  event.readout = Readout{-4000, 6000, {0.059, 300, 11000}, {}, modules};
+  event.readout =
+      Readout{-4000, 6000, {0.059, 300, 11000}, {}, modules, {{0.015, 25, 65}, {0.02, 64.5, 77.5}}};
   event.readout->unusable = {{{1, 2}, 10, 20.5, UnusableTimes::Reason::saturated},
                              {{3, 4}, -5, 2445, UnusableTimes::Reason::dead}};
   return event;
@@ -92,6 +93,7 @@ TEST_F(PulseEvents, ComeBackWithAllThatStandsBesideThem) {
     EXPECT_EQ(event.readout->unusable[0].module, ModuleId({1, 2}));
     EXPECT_EQ(event.readout->unusable[0].end, 20.5);
     EXPECT_EQ(event.readout->unusable[1].reason, UnusableTimes::Reason::dead);
+    EXPECT_EQ(event.readout->delays, expected.readout->delays);
     EXPECT_EQ(reader.photons(e).size(), e == 1 ? 0u : 7u);
     const auto photoelectrons = reader.photoelectrons(e);
     ASSERT_EQ(photoelectrons.size(), e);

@@ -75,7 +75,8 @@ TEST(EventData, LearnsFromTheReadout) {
                           6000,
                           {0.06, 300, 11000},
                           {{{1, 3}, 900, 1000, UnusableTimes::Reason::dead}},
-                          std::make_shared<const RecordingModules>(modules)};
+                          std::make_shared<const RecordingModules>(modules),
+                          {}};
   const EventData data(detector, event);
   ASSERT_EQ(data.lit().size(), 2u);
   EXPECT_EQ(data.dark(), (std::vector<std::uint32_t>{3, 4}));  // the first was off
@@ -97,6 +98,23 @@ TEST(EventData, LearnsFromTheReadout) {
   DataSelection asked;
   asked.noise_rate = 500;  // what the user names counts
   EXPECT_NEAR(EventData(detector, event, asked).dark_noise(3), 500 * window, 1e-12);
+}
+
+// Charges of single photoelectrons, half of them 0.5 and half 1.5: <q^2>/<q> = 1.25.
+TEST(EventData, ModulesWithOnePulseTellHowChargesScatter) {
+  const Detector detector = test::one_string(40, 40);
+  Event event;
+  event.id = "pulses";
+  RecordingModules modules;
+  for (const Module& module : detector.modules()) modules.push_back({module.id, true, 0});
+  for (int dom = 1; dom <= 30; ++dom) event.hits.push_back(hit(dom, 100.0 + dom, dom % 2 ? 0.5f : 1.5f));
+  for (const double time : {200.0, 210.0}) event.hits.push_back(hit(36, time, 7));
+  EXPECT_EQ(EventData(detector, event).charge_dispersion(), 1);  // photons
+  event.readout =
+      Readout{-4000, 6000, {0, 300, 11000}, {}, std::make_shared<const RecordingModules>(modules), {}};
+  EXPECT_NEAR(EventData(detector, event).charge_dispersion(), 1.25, 1e-6);
+  event.hits.resize(10);
+  EXPECT_EQ(EventData(detector, event).charge_dispersion(), 1);  // too few to tell
 }
 
 }  // namespace

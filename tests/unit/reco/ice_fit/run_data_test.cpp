@@ -55,7 +55,7 @@ TEST(FlasherData, LeavesOutWhatTheRecordCannotTell) {
   std::vector<Event> events{run_of("a", {7, 0.5, 2, 3, 1})};
   RecordingModules modules;
   for (int string = 1; string <= 5; ++string) modules.push_back({{string, 1}, string != 2, 0});
-  events[0].readout = Readout{-4000, 6000, {}, {}, std::make_shared<const RecordingModules>(modules)};
+  events[0].readout = Readout{-4000, 6000, {}, {}, std::make_shared<const RecordingModules>(modules), {}};
   events[0].readout->unusable = {{{3, 1}, 90, 110, UnusableTimes::Reason::saturated},
                                  {{5, 1}, 500, 900, UnusableTimes::Reason::dead}};
   EXPECT_EQ(flasher_data(five_modules(), events).runs.at(0).used, (std::vector<char>{0, 0, 0, 0, 1}));
@@ -74,7 +74,7 @@ TEST(FlasherData, KnowsTheElectronicsRecord) {
   for (int string = 1; string <= 5; ++string)
     modules.push_back({{string, 1}, string != 2, 400.0 + 10 * string});
   event.readout =
-      Readout{-4000, 6000, {0.06, 300, 11000}, {}, std::make_shared<const RecordingModules>(modules)};
+      Readout{-4000, 6000, {0.06, 300, 11000}, {}, std::make_shared<const RecordingModules>(modules), {}};
   const RunData run = flasher_data(five_modules(), std::vector<Event>{event}).runs.at(0);
   EXPECT_EQ(run.first, -4000);
   EXPECT_EQ(run.last, 6000);
