@@ -122,8 +122,13 @@ void EventData::learn_from(const Readout& readout) {
     if (!module.on) selection_.bad.push_back(module.id);
     if (!noise_asked) selection_.noise_of[module.id] = module.noise_rate;
   }
-  for (const UnusableTimes& times : readout.unusable)
+  const double afterwards = std::numeric_limits<double>::infinity();
+  for (const UnusableTimes& times : readout.unusable) {
     selection_.left_out.push_back({times.module, times.begin, times.end});
+    // Nobody knows how many afterpulses follow light that was too bright to be measured.
+    if (times.reason == UnusableTimes::Reason::saturated && readout.afterpulses.share > 0)
+      selection_.left_out.push_back({times.module, times.begin + readout.afterpulses.begin, afterwards});
+  }
   afterpulses_ = readout.afterpulses;
 }
 

@@ -25,7 +25,10 @@ bool is_clipped(int counts) {
   return counts >= DigitiserSettings::largest_count;
 }
 
-void add_clipped(double begin, double end, std::vector<TimeRange>& ranges) {
+// Light within a pulse's width of a clipped sample is mistaken for what the sample hides.
+void add_clipped(double time, double step, std::vector<TimeRange>& ranges) {
+  constexpr double width = 10;  // [ns]
+  const double begin = time - std::max(step, width), end = time + std::max(step, width);
   if (!ranges.empty() && begin <= ranges.back().end)
     ranges.back().end = end;
   else
@@ -54,7 +57,7 @@ Samples samples_of(const Digitisers& digitisers, std::span<const Waveform> trace
       if (good != atwds.end())
         add(*good, i);
       else
-        add_clipped(time - first.step, time + first.step, samples.clipped);
+        add_clipped(time, first.step, samples.clipped);
     }
   }
   for (std::size_t i = 0; i < fadc.counts.size(); ++i) {
@@ -62,7 +65,7 @@ Samples samples_of(const Digitisers& digitisers, std::span<const Waveform> trace
     if (!is_clipped(fadc.counts[i]))
       add(fadc, i);
     else if (time > samples.atwd_end || atwds.empty())
-      add_clipped(time - fadc.step, time + fadc.step, samples.clipped);
+      add_clipped(time, fadc.step, samples.clipped);
   }
   return samples;
 }

@@ -100,6 +100,26 @@ TEST(EventData, LearnsFromTheReadout) {
   EXPECT_NEAR(EventData(detector, event, asked).dark_noise(3), 500 * window, 1e-12);
 }
 
+// Afterpulses of light that nobody measured cannot be expected: the module is not asked from 300 ns after on.
+TEST(EventData, LeavesOutWhatFollowsSaturation) {
+  const Detector detector = small_detector();
+  Event event{"e", {hit(2, 0), hit(2, 95, 500), hit(2, 250), hit(2, 900), hit(3, 900)}, {}, 1};
+  RecordingModules modules;
+  for (int dom = 1; dom <= 6; ++dom) modules.push_back({{1, dom}, true, 0});
+  event.readout = Readout{-4000,
+                          6000,
+                          {0.06, 300, 11000},
+                          {{{1, 2}, 90, 100, UnusableTimes::Reason::saturated}},
+                          std::make_shared<const RecordingModules>(modules),
+                          {}};
+  const EventData data(detector, event);
+  ASSERT_EQ(data.lit().size(), 2u);
+  EXPECT_EQ(data.lit()[0].times, (std::vector<double>{0, 250}));
+  EXPECT_EQ(data.lit()[1].charge, 1);
+  event.readout->afterpulses.share = 0;
+  EXPECT_EQ(EventData(detector, event).lit()[0].times, (std::vector<double>{0, 250, 900}));
+}
+
 // Charges of single photoelectrons, half of them 0.5 and half 1.5: <q^2>/<q> = 1.25.
 TEST(EventData, ModulesWithOnePulseTellHowChargesScatter) {
   const Detector detector = test::one_string(40, 40);
