@@ -204,9 +204,8 @@ void add_merge(CLI::App& floe, const std::string& command_line) {
       "  floe simulate --flasher 63,20 --photons 1e7 --shard 1/2 -o part1.h5\n"
       "  floe simulate --flasher 63,20 --photons 1e7 --shard 2/2 -o part2.h5\n"
       "  floe merge part1.h5 part2.h5 -o whole.h5\n"
-      "The merged shards hold the hits of the whole run, photon by photon. Photons, photoelectrons and "
-      "waveforms "
-      "that stand beside pulses are kept.");
+      "The merged shards hold the hits of the whole run, photon by photon. What stands beside pulses is "
+      "kept.");
   app.callback([options, command_line] { run_merge(*options, command_line); });
 }
 
