@@ -107,40 +107,35 @@ struct Counts {
   std::size_t events = 0, hits = 0;
 };
 
-// Adds event `e` of a file to the event begun last, with all that stands beside its hits.
-void append(const EventFileReader& from, std::size_t e, const std::vector<Hit>& hits, EventFileWriter& to) {
-  to.append(hits);
+// Adds event `e` of a file with all that stands beside its hits, as an event of its own or to the one begun
+// last.
+void copy(const EventFileReader& from, std::size_t e, bool begins, EventFileWriter& to, Counts& counts) {
+  const Event event = from.read(e);
+  if (begins) to.begin_event(event);
+  to.append(event.hits);
   const auto beside = [](const auto& rows, const auto& write) {
     if (!rows.empty()) write(rows);
   };
   beside(from.photons(e), [&](const auto& rows) { to.append_photons(rows); });
   beside(from.photoelectrons(e), [&](const auto& rows) { to.append_photoelectrons(rows); });
   beside(from.waveforms(e), [&](const auto& rows) { to.append_waveforms(rows); });
+  counts.events += begins;
+  counts.hits += event.hits.size();
 }
 
 // One event at a time. Of shards, hits in the order of the shards.
 Counts copy_shards(std::vector<Part>& parts, EventFileWriter& writer) {
   std::sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.shard < b.shard; });
   Counts counts;
-  for (std::size_t e = 0; e < parts.front().events.size(); ++e, ++counts.events)
-    for (const Part& part : parts) {
-      const Event event = part.events.read(e);
-      if (&part == &parts.front()) writer.begin_event(event);
-      append(part.events, e, event.hits, writer);
-      counts.hits += event.hits.size();
-    }
+  for (std::size_t e = 0; e < parts.front().events.size(); ++e)
+    for (const Part& part : parts) copy(part.events, e, &part == &parts.front(), writer, counts);
   return counts;
 }
 
 Counts copy_events(const std::vector<Part>& parts, EventFileWriter& writer) {
   Counts counts;
   for (const Part& part : parts)
-    for (std::size_t e = 0; e < part.events.size(); ++e, ++counts.events) {
-      const Event event = part.events.read(e);
-      writer.begin_event(event);
-      append(part.events, e, event.hits, writer);
-      counts.hits += event.hits.size();
-    }
+    for (std::size_t e = 0; e < part.events.size(); ++e) copy(part.events, e, true, writer, counts);
   return counts;
 }
 

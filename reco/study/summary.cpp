@@ -114,7 +114,6 @@ StudyResiduals residuals_of(const StudyRow& row, const StudyFit& fit) {
   unit(6) = 1 / row.truth.energy;
   result.difference = -displacement(fit.cascade, row.truth).cwiseProduct(unit);
   unit(5) = std::sin(row.truth.zenith);
-  unit(6) = 1 / row.truth.energy;
   result.bound = unit.asDiagonal() * row.bound * unit.asDiagonal();
   return result;
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -17,6 +18,23 @@ using test::hit;
 // Six modules, of which the last is off.
 Detector small_detector() {
   return test::one_string(6, 5);
+}
+
+// The record of so many modules; by default all were on and without noise.
+Readout record_of(
+    int count, double afterpulse_share, std::vector<UnusableTimes> unusable = {},
+    const std::function<void(RecordingModule&)>& change = [](RecordingModule&) {}) {
+  RecordingModules modules;
+  for (int dom = 1; dom <= count; ++dom) {
+    modules.push_back({{1, dom}, true, 0});
+    change(modules.back());
+  }
+  return {-4000,
+          6000,
+          {afterpulse_share, 300, 11000},
+          std::move(unusable),
+          std::make_shared<const RecordingModules>(std::move(modules)),
+          {}};
 }
 
 TEST(EventData, SortsHitsIntoModulesAndBins) {
@@ -69,14 +87,11 @@ TEST(EventData, SaysWhenLightIsNotEnough) {
 TEST(EventData, LearnsFromTheReadout) {
   const Detector detector = small_detector();
   Event event{"e", {hit(1, 0), hit(2, 0, 100), hit(2, 5000), hit(3, 50), hit(3, 950, 40)}, {}, 1};
-  RecordingModules modules;
-  for (int dom = 1; dom <= 6; ++dom) modules.push_back({{1, dom}, dom != 1, dom * 1e3});
-  event.readout = Readout{-4000,
-                          6000,
-                          {0.06, 300, 11000},
-                          {{{1, 3}, 900, 1000, UnusableTimes::Reason::dead}},
-                          std::make_shared<const RecordingModules>(modules),
-                          {}};
+  event.readout =
+      record_of(6, 0.06, {{{1, 3}, 900, 1000, UnusableTimes::Reason::dead}}, [](RecordingModule& module) {
+        module.on = module.id.dom != 1;
+        module.noise_rate = module.id.dom * 1e3;
+      });
   const EventData data(detector, event);
   ASSERT_EQ(data.lit().size(), 2u);
   EXPECT_EQ(data.dark(), (std::vector<std::uint32_t>{3, 4}));  // the first was off
@@ -104,14 +119,7 @@ TEST(EventData, LearnsFromTheReadout) {
 TEST(EventData, LeavesOutWhatFollowsSaturation) {
   const Detector detector = small_detector();
   Event event{"e", {hit(2, 0), hit(2, 95, 500), hit(2, 250), hit(2, 900), hit(3, 900)}, {}, 1};
-  RecordingModules modules;
-  for (int dom = 1; dom <= 6; ++dom) modules.push_back({{1, dom}, true, 0});
-  event.readout = Readout{-4000,
-                          6000,
-                          {0.06, 300, 11000},
-                          {{{1, 2}, 90, 100, UnusableTimes::Reason::saturated}},
-                          std::make_shared<const RecordingModules>(modules),
-                          {}};
+  event.readout = record_of(6, 0.06, {{{1, 2}, 90, 100, UnusableTimes::Reason::saturated}});
   const EventData data(detector, event);
   ASSERT_EQ(data.lit().size(), 2u);
   EXPECT_EQ(data.lit()[0].times, (std::vector<double>{0, 250}));
@@ -125,13 +133,10 @@ TEST(EventData, ModulesWithOnePulseTellHowChargesScatter) {
   const Detector detector = test::one_string(40, 40);
   Event event;
   event.id = "pulses";
-  RecordingModules modules;
-  for (const Module& module : detector.modules()) modules.push_back({module.id, true, 0});
   for (int dom = 1; dom <= 30; ++dom) event.hits.push_back(hit(dom, 100.0 + dom, dom % 2 ? 0.5f : 1.5f));
   for (const double time : {200.0, 210.0}) event.hits.push_back(hit(36, time, 7));
   EXPECT_EQ(EventData(detector, event).charge_dispersion(), 1);  // photons
-  event.readout =
-      Readout{-4000, 6000, {0, 300, 11000}, {}, std::make_shared<const RecordingModules>(modules), {}};
+  event.readout = record_of(40, 0);
   EXPECT_NEAR(EventData(detector, event).charge_dispersion(), 1.25, 1e-6);
   event.hits.resize(10);
   EXPECT_EQ(EventData(detector, event).charge_dispersion(), 1);  // too few to tell
