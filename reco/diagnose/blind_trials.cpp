@@ -240,7 +240,7 @@ class Trials {
     std::vector<Hidden> all;
     for (const auto& [effect, places] : by_effect)
       for (int t = 0; t < options_.trials; ++t) {
-        if (auto hidden = hide(places))
+        if (auto hidden = hide(places, tester))
           all.push_back(std::move(*hidden));
         else
           result_.not_tried[effect] =
@@ -254,7 +254,7 @@ class Trials {
     return std::uniform_real_distribution<double>(low, high)(random_);
   }
 
-  std::optional<Hidden> hide(const std::vector<const TestedSuspect*>& places) {
+  std::optional<Hidden> hide(const std::vector<const TestedSuspect*>& places, const ScoreTester& tester) {
     constexpr int tries = 40;
     for (int i = 0; i < tries; ++i) {
       const auto index = std::uniform_int_distribution<std::size_t>(0, places.size() - 1)(random_);
@@ -262,9 +262,10 @@ class Trials {
       Eigen::VectorXd direction(place.low.size());
       for (double& value : direction) value = std::normal_distribution<double>()(random_);
       const double wanted = uniform(options_.least, options_.most);
-      const double unit = std::sqrt(2 * place.expected_gain(direction));
+      const double unit = place.expected_gain(direction);
       if (!(unit > 0)) continue;
-      const Eigen::VectorXd amplitudes = direction * wanted / unit;
+      const Eigen::VectorXd amplitudes =
+          direction * std::sqrt(tester.gain_of_significance(place.suspect->effect, wanted) / unit);
       if (((amplitudes - place.low).array() < 0).any() || ((place.high - amplitudes).array() < 0).any())
         continue;
       try {
@@ -313,7 +314,7 @@ class Trials {
     if (trial.named_text == hidden.effect.text && !first.best.suspect.place.count("depth"))
       tell_values(first.best, trial);
     for (const EffectScore& effect : test.effects)
-      if (&effect == &first || effect.likeness > inseparable)
+      if (&effect == &first || is_inseparable(effect, first))
         trial.group.push_back(effect.best.suspect.effect);
     return trial;
   }

@@ -25,7 +25,9 @@ struct BlindTrialOptions : RunSettings {
   int pairs = 0;                // whole diagnoses of two effects hidden together
   int outside = 0;              // and of what the catalogue does not have (outside_effects.h)
   int folds = 3;                // of whole diagnoses
-  double least = 5, most = 12;  // expected significance of what is hidden, in standard deviations
+  // Expected significance of what is hidden, in standard deviations for all places of its effect: what the
+  // diagnosis would say, and less than its place alone would be worth.
+  double least = 5, most = 12;
   double alpha = 0.01, floor = 0.005;
   int draws = 300;
   // Of the survey (see PairPlan): it serves all trials, so that its slopes may be good.

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double close = 2;      // differences of -ln L, in units of their noise
 constexpr double undecided = 6;  // differences of chi-square
+constexpr double needed = 9;     // chi-square of an effect that is there beside the other
 constexpr double held = 1e-3;    // width of a prior, in the parameter's scale, that leaves a band where it is
 
 double parameters_in(const Trial& trial) {
@@ -76,7 +77,7 @@ void hold_contest(const Model& base, double noise, const FitBeside& fit, std::ve
 }
 
 bool lost_narrowly(const Trial& trial) {
-  return trial.lost && trial.lost->winner - trial.lost->loser < undecided;
+  return trial.lost && trial.lost->winner - trial.lost->loser < undecided && trial.lost->loser < needed;
 }
 
 }  // namespace floe

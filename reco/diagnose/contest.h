@@ -43,7 +43,7 @@ double chi_square_of(const Trial& trial, const IceFit& fit, std::size_t first, c
 // that adds more to the other wins.
 void hold_contest(const Model& base, double noise, const FitBeside& fit, std::vector<Candidate>& candidates);
 
-// Whether the duel that it lost was too close to tell it from the winner.
+// Whether the duel that it lost was too close to tell it from the winner, and it is not there as well.
 bool lost_narrowly(const Trial& trial);
 
 }  // namespace floe

@@ -219,17 +219,8 @@ class Diagnoser {
     named.suspect = trial.suspect;
     named.parameters = trial.parameters;
     named.group = {trial.suspect.effect};
-    // Likeness is known to the leader of the scores: who is like the leader, as what is added is, is alike.
-    const auto leads_with = [&](const std::string& effect) {
-      for (const EffectScore& score : now.scores.effects)
-        if (score.best.suspect.effect == effect) return score.likeness > inseparable;
-      return false;
-    };
-    if (leads_with(trial.suspect.effect))
-      for (const EffectScore& other : now.scores.effects)
-        if (other.best.suspect.effect != trial.suspect.effect && other.likeness > inseparable &&
-            may_be(other.best.suspect.effect, now))
-          named.group.push_back(other.best.suspect.effect);
+    for (const EffectScore& other : now.scores.effects)
+      if (cannot_be_told(other, now)) named.group.push_back(other.best.suspect.effect);
     named.significance = std::sqrt(trial.chi_square);
     spans_.push_back({parameters_.size(), trial.parameters.size()});
     result_.effects.push_back(std::move(named));
@@ -285,11 +276,19 @@ class Diagnoser {
                    std::sqrt(share.dot(fit.covariance.block(first, first, count, count) * share))};
   }
 
-  // Whether its fit, if there was one, does not speak against it.
-  static bool may_be(const std::string& effect, const DiagnosisStep& now) {
+  // Whether this might as well be what is missing as the winner of the contest.
+  static bool cannot_be_told(const EffectScore& other, const DiagnosisStep& now) {
+    const std::string &effect = other.best.suspect.effect, &winner = now.trials.front().suspect.effect;
+    if (effect == winner) return false;
     for (const Trial& trial : now.trials)
-      if (trial.suspect.effect == effect) return lost_narrowly(trial);
-    return true;
+      if (trial.suspect.effect == effect) return lost_narrowly(trial);  // fits decide where there are some
+    // Likeness is known to the leader of the scores: who is like the leader, as the winner is, is alike.
+    const EffectScore& leader = now.scores.effects.front();
+    const auto& scores = now.scores.effects;
+    const auto score = std::find_if(scores.begin(), scores.end(), [&](const EffectScore& candidate) {
+      return candidate.best.suspect.effect == winner;
+    });
+    return score != scores.end() && is_inseparable(*score, leader) && is_inseparable(other, leader);
   }
 
   void take(const IceFit& fit) {

@@ -163,6 +163,10 @@ ScoreTester::ScoreTester(const Survey& survey, const std::vector<Suspect>& suspe
   ln_number_of_all_ = ln_number(least);
 }
 
+double ScoreTester::gain_of_significance(const std::string& effect, double sigmas) const {
+  return ln_number_.at(effect) - ln_p_of(sigmas);
+}
+
 double ScoreTester::gain_to_be_named(const std::string& effect, double alpha) const {
   return ln_number_.at(effect) + ln_number_of_all_ - std::log(alpha);
 }
@@ -200,19 +204,30 @@ ScoreTest ScoreTester::test(const SurveyCounts& counts, double floor) const {
   return result;
 }
 
+bool is_inseparable(const EffectScore& effect, const EffectScore& first) {
+  constexpr double same = 0.9, much = 0.5;  // likeness
+  constexpr double undecided = 3;           // differences of ln p
+  return effect.likeness > same || (effect.likeness > much && effect.ln_p - first.ln_p < undecided);
+}
+
 double ln_tail_probability(double gain, const std::vector<double>& drawn) {
   return ln_probability(gain, ln_number(drawn));
 }
 
+double ln_p_of(double sigmas) {
+  constexpr double far = 30;  // where its asymptotic form serves
+  if (sigmas > far)
+    return -sigmas * sigmas / 2 - std::log(sigmas) + std::log(2 / std::sqrt(2 * std::numbers::pi));
+  return std::log(std::erfc(sigmas / std::numbers::sqrt2));
+}
+
 double sigmas_of(double ln_p) {
-  // erfc(s / sqrt 2) = p, by Newton's way in the logarithm; for large s its asymptotic form.
+  // Newton's way in the logarithm.
   if (ln_p >= 0) return 0;
   double s = std::sqrt(std::max(0.0, -2 * ln_p));
   for (int i = 0; i < 50; ++i) {
-    const bool far = s > 30;
-    const double value = far ? -s * s / 2 - std::log(s) + std::log(2 / std::sqrt(2 * std::numbers::pi))
-                             : std::log(std::erfc(s / std::numbers::sqrt2));
-    const double slope = far ? -s - 1 / s : -std::sqrt(2 / std::numbers::pi) * std::exp(-s * s / 2 - value);
+    const double value = ln_p_of(s);
+    const double slope = -std::sqrt(2 / std::numbers::pi) * std::exp(-s * s / 2 - value);
     const double step = (ln_p - value) / slope;
     s = std::max(1e-9, s + step);
     if (std::abs(step) < 1e-10) break;

@@ -13,9 +13,6 @@
 
 namespace floe {
 
-// Correlation above which the data cannot tell two effects apart.
-constexpr double inseparable = 0.9;
-
 struct Score {
   Suspect suspect;
   double gain = 0;              // expected of -ln L, by the best amplitudes
@@ -39,6 +36,10 @@ struct ScoreTest {
   std::vector<EffectScore> effects;  // the least ln_p first; likeness is with the first
   double p_value = 1;                // of the first, for everything tried
 };
+
+// Whether the data cannot tell this effect from the first in the ranking: what they change is the same light,
+// or much of it and both may well be what is missing.
+bool is_inseparable(const EffectScore& effect, const EffectScore& first);
 
 // A suspect with what its test needs.
 struct TestedSuspect {
@@ -72,6 +73,8 @@ class ScoreTester {
   const std::vector<TestedSuspect>& suspects() const { return tested_; }
   // Gain at which an effect is named with this probability for everything tried.
   double gain_to_be_named(const std::string& effect, double alpha) const;
+  // Gain at which an effect has this significance [standard deviations] for all its places.
+  double gain_of_significance(const std::string& effect, double sigmas) const;
 
  private:
   const Survey& survey_;
@@ -88,5 +91,6 @@ double ln_tail_probability(double gain, const std::vector<double>& drawn);
 
 // Standard deviations of a Gaussian that are exceeded, up or down, with this probability.
 double sigmas_of(double ln_p);
+double ln_p_of(double sigmas);
 
 }  // namespace floe

@@ -65,7 +65,7 @@ std::vector<LightRequest> design_requests(const LocalFrame& frame, const Stage& 
 
 double useful_photons(ExpectationModel& light, const CascadeParameters& cascade, const EventData& data,
                       double oversize, double effort, const PhotonNeed& need) {
-  constexpr double dimmest = 4;
+  const double dimmest = data.charge() < worthwhile_charge ? 1 : 4;
   const double one = light.photons_per_cascade(cascade, oversize) * data.repeats();
   const double hits_of_one = std::max(1.0, data.charge());
   const double dim = std::clamp(need.hits / (need.events * hits_of_one), 1.0, dimmest);

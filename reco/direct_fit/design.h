@@ -31,7 +31,9 @@ std::vector<LightRequest> design_requests(const LocalFrame& frame, const Stage& 
 
 // Photons that are worth simulating for a cascade: those of `events` repetitions of the measured light, but
 // not less or more than that; `effort` multiplies them. Where modules see few of many photons, as in a layer
-// of dust, there are up to four times as many, `most` too, until they make `hits` of the measured light.
+// of dust, there are up to four times as many, `most` too, until they make `hits` of the measured light: if
+// there is enough of that to tell seven numbers with any use.
+constexpr double worthwhile_charge = 30;  // [photoelectrons]
 struct PhotonNeed {
   double events = 3, least = 1e6, most = 1e7;
   double hits = 2500;

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "reco/direct_fit/arrival_bins.h"
+#include "reco/direct_fit/design.h"
 #include "reco/direct_fit/search.h"
 
 namespace floe {
@@ -32,6 +33,7 @@ Search::End Search::finish(const RoundEnd& rough, const End* known) {
     return end;
   }
   CalibrationNeed need{{errors.head<3>().norm(), errors.segment<2>(3).norm()}};
+  end.unsolved = data_.charge() < worthwhile_charge;
   std::optional<End> found;  // the last solution that stayed near its calibration
   for (int i = 0; i < most_calibrations && !end.converged && !end.unsolved; ++i) {
     calibrate(end, need);
@@ -43,7 +45,7 @@ Search::End Search::finish(const RoundEnd& rough, const End* known) {
   end.unsolved |= !end.converged && !found;
   if (end.unsolved) {
     end.calibration.reset();
-    // Too little light for the score's seven sums: the emulator's own minimum and curvature are what is left.
+    // Too little light for the score: the emulator's own minimum and curvature are what is left.
     Stage wide = calibration_stages(data_, end.light, need.errors, need.reach, options_.oversize).wide;
     wide.photons = photons_for(cascade_of(end.light, options_.kind), wide.oversize, {300, 2e6, 2e7});
     const RoundEnd last = settle(end.light, wide, most_rounds_without_score, true);

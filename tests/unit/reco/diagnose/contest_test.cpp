@@ -75,6 +75,17 @@ TEST_F(Contest, WhatBothCouldBeIsLostNarrowly) {
   EXPECT_TRUE(lost_narrowly(candidates[1].trial));
 }
 
+TEST_F(Contest, WhatIsThereAsWellIsNotLostNarrowly) {
+  auto candidates = rivals(186);
+  hold_contest(
+      base_, noise_,
+      [](const auto&) {
+        return fit_with({0.2, 0.2}, {0.05, 0.1});  // chi-squares 16 and 16
+      },
+      candidates);
+  EXPECT_FALSE(lost_narrowly(candidates[1].trial));
+}
+
 TEST_F(Contest, WithoutACommonFitTheLikelihoodDecides) {
   auto candidates = rivals(186);
   hold_contest(

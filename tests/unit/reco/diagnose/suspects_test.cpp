@@ -19,6 +19,21 @@ TEST(Probabilities, AreStandardDeviationsOfAGaussian) {
   // Where erfc has no number any more: p = 2 phi(s)/s (1 - 1/s^2 ...).
   const double s = 50;
   EXPECT_NEAR(sigmas_of(-s * s / 2 + std::log(2 / std::sqrt(2 * M_PI) / s)), s, 0.01);
+  for (const double sigmas : {0.5, 3.0, 12.0, 80.0}) EXPECT_NEAR(sigmas_of(ln_p_of(sigmas)), sigmas, 1e-9);
+}
+
+// Alike, or half alike and as probable.
+TEST(Scores, AreInseparableWhereBothMayBeWhatIsMissing) {
+  const auto score = [](double likeness, double ln_p) {
+    EffectScore effect;
+    effect.likeness = likeness, effect.ln_p = ln_p;
+    return effect;
+  };
+  const EffectScore first = score(1, -20);
+  EXPECT_TRUE(is_inseparable(score(0.95, -5), first));
+  EXPECT_TRUE(is_inseparable(score(0.7, -18), first));
+  EXPECT_FALSE(is_inseparable(score(0.7, -12), first));
+  EXPECT_FALSE(is_inseparable(score(0.2, -20), first));  // another effect, as strong
 }
 
 // Of exponential gains every probability is known.
