@@ -185,7 +185,7 @@ RespondedEvent DetectorResponse::respond(const Event& event, const ResponseRecor
   RespondedEvent result;
   result.event = {event.id, {}, event.truth, event.repeats, event.flasher, {}};
   result.event.readout = Readout{window.begin, window.end, settings_.afterpulses,
-                                 {},           modules_,   TransitTime(settings_.time).late_pulses()};
+                                 {},           modules_,   TransitTime(settings_.time).expected_delays()};
   const std::uint64_t source = stream_of(event.id);
   // As many repeats at a time as there are threads, so that memory does not grow with their number.
   const int together = repeats > 1 ? std::max(1, threads) : 1;

@@ -17,12 +17,32 @@ double TransitTime::peak_density(double time) const {
   return std::sqrt(2 / std::numbers::pi) / (settings_.rise + settings_.fall) * std::exp(-0.5 * z * z);
 }
 
-std::vector<ExpectedDelay> TransitTime::late_pulses() const {
+double TransitTime::peak_below(double time) const {
+  const auto& s = settings_;
+  const double from_mode = time + peak_mean(), early = s.rise / (s.rise + s.fall);
+  if (from_mode < 0) return early * std::erfc(-from_mode / (s.rise * std::numbers::sqrt2));
+  return early + (1 - early) * std::erf(from_mode / (s.fall * std::numbers::sqrt2));
+}
+
+double TransitTime::peak_share() const {
+  const auto& s = settings_;
+  return 1 - s.prepulse_share - s.shoulder_share - s.late_peak_share - s.tail_share;
+}
+
+std::vector<ExpectedDelay> TransitTime::expected_delays() const {
+  constexpr double narrow = 0.5, far = 4;  // [ns]; widths of the peak's halves
   const auto& s = settings_;
   const double half = std::sqrt(3.0) * s.late_peak_width;  // of as wide a box
   std::vector<ExpectedDelay> all{{s.shoulder_share, s.shoulder_begin, s.shoulder_end},
                                  {s.late_peak_share, s.late_peak_time - half, s.late_peak_time + half},
                                  {s.tail_share, s.tail_begin, s.tail_end}};
+  const double begin = -peak_mean() - far * s.rise, end = -peak_mean() + far * s.fall;
+  const int boxes = static_cast<int>(std::ceil((end - begin) / narrow));
+  const double width = (end - begin) / boxes;
+  for (int i = 0; i < boxes; ++i) {
+    const double low = begin + i * width;
+    all.push_back({peak_share() * (peak_below(low + width) - peak_below(low)), low, low + width});
+  }
   std::erase_if(all, [](const ExpectedDelay& delay) { return delay.share <= 0 || delay.begin >= delay.end; });
   return all;
 }

@@ -34,11 +34,14 @@ class TransitTime {
   };
   Arrival draw(RandomStream& stream) const;
 
-  // Late pulses, as fits expect them; prepulses stay below the discriminator.
-  std::vector<ExpectedDelay> late_pulses() const;
+  // All of it but prepulses, which stay below the discriminator, as fits expect it: in boxes, those of the
+  // peak narrow.
+  std::vector<ExpectedDelay> expected_delays() const;
 
  private:
-  double peak_mean() const;  // of the two halves, from where they meet [ns]
+  double peak_mean() const;              // of the two halves, from where they meet [ns]
+  double peak_below(double time) const;  // integral of the density
+  double peak_share() const;             // of all photoelectrons
 
   TransitTimeSettings settings_;
 };

@@ -103,28 +103,54 @@ TEST(TransitTime, OtherPulsesHaveTheirSharesAndTimes) {
   expect_share(tail, settings.tail_share);
 }
 
-// What fits are told of late pulses has the share, mean and width of what is drawn.
-TEST(TransitTime, LatePulsesAreAsExpected) {
-  const TransitTime time;
-  RandomStream stream(3, 1, 4);
-  std::vector<double> late;
-  for (int i = 0; i < many; ++i)
-    if (const auto arrival = time.draw(stream); arrival.origin == PhotoelectronOrigin::late)
-      late.push_back(arrival.delay);
-  double share = 0, mean = 0, square = 0;
-  for (const ExpectedDelay& delay : time.late_pulses()) {
+struct Moments {
+  double share = 0, mean = 0, deviation = 0;
+};
+template <typename Wanted>
+Moments moments_of(const std::vector<ExpectedDelay>& delays, Wanted wanted) {
+  Moments m;
+  double square = 0;
+  for (const ExpectedDelay& delay : delays) {
     const double middle = (delay.begin + delay.end) / 2, width = delay.end - delay.begin;
-    share += delay.share;
-    mean += delay.share * middle;
+    if (!wanted(middle)) continue;
+    m.share += delay.share;
+    m.mean += delay.share * middle;
     square += delay.share * (middle * middle + width * width / 12);
   }
-  mean /= share;
-  const double deviation = std::sqrt(square / share - mean * mean), n = static_cast<double>(late.size());
-  EXPECT_NEAR(n, many * share, 5 * std::sqrt(many * share));
-  EXPECT_NEAR(mean_of(late), mean, 5 * deviation / std::sqrt(n));
-  double variance = 0;
-  for (const double delay : late) variance += (delay - mean) * (delay - mean) / n;
-  EXPECT_NEAR(std::sqrt(variance), deviation, 5 * deviation / std::sqrt(2 * n));
+  m.mean /= m.share;
+  m.deviation = std::sqrt(square / m.share - m.mean * m.mean);
+  return m;
+}
+
+// What fits are told has the share, mean and width of what is drawn: of the peak, and of late pulses.
+TEST(TransitTime, DelaysAreAsExpected) {
+  const TransitTime time;
+  constexpr double late = 15;  // [ns]: far from both
+  for (const PhotoelectronOrigin origin : {PhotoelectronOrigin::photon, PhotoelectronOrigin::late}) {
+    RandomStream stream(3, 1, 4);
+    std::vector<double> drawn;
+    for (int i = 0; i < many; ++i)
+      if (const auto arrival = time.draw(stream); arrival.origin == origin) drawn.push_back(arrival.delay);
+    const auto expected = moments_of(time.expected_delays(), [&](double middle) {
+      return (middle > late) == (origin == PhotoelectronOrigin::late);
+    });
+    const double n = static_cast<double>(drawn.size()), mean = mean_of(drawn);
+    EXPECT_NEAR(n, many * expected.share, 5 * std::sqrt(many * expected.share * (1 - expected.share)));
+    EXPECT_NEAR(mean, expected.mean, 5 * expected.deviation / std::sqrt(n));
+    double variance = 0;
+    for (const double delay : drawn) variance += (delay - mean) * (delay - mean) / n;
+    const double by_boxes = 0.003;
+    EXPECT_NEAR(std::sqrt(variance), expected.deviation,
+                (5 / std::sqrt(2 * n) + by_boxes) * expected.deviation);
+  }
+}
+
+// A tube without spread gives its light at once.
+TEST(TransitTime, WithoutSpreadNothingIsDelayed) {
+  TransitTimeSettings settings;
+  settings.rise = settings.fall = settings.shoulder_share = settings.late_peak_share = settings.tail_share =
+      0;
+  EXPECT_TRUE(TransitTime(settings).expected_delays().empty());
 }
 
 TEST(Afterpulses, AreEvenInTheLogarithmOfTime) {
