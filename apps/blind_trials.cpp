@@ -206,10 +206,10 @@ void add_blind_trials(CLI::App& floe) {
   add_count("--pairs", 10000, "Whole diagnoses of two effects hidden together", options.pairs);
   add_count("--outside", 10000, "Whole diagnoses of effects that the catalogue does not have",
             options.outside);
-  add_number(app, "--least", "SIGMA", {0.1, 1000}, "Expected significance of what is hidden, places counted, at least",
-             command->options.least);
-  add_number(app, "--most", "SIGMA", {0.1, 1000}, "Expected significance of what is hidden, places counted, at most",
-             command->options.most);
+  add_number(app, "--least", "SIGMA", {0.1, 1000},
+             "Expected significance of what is hidden, places counted, at least", command->options.least);
+  add_number(app, "--most", "SIGMA", {0.1, 1000},
+             "Expected significance of what is hidden, places counted, at most", command->options.most);
   add_number(app, "--alpha", "P", {1e-6, 0.5}, "Probability of naming anything when nothing is missing",
              command->options.alpha);
   add_number(app, "--light", "RATIO", {0.1, 1000}, "Simulated light, in units of the data's",

@@ -32,6 +32,7 @@ void sort_by_time(ModuleData& data) {
   for (std::size_t i = 0; i < order.size(); ++i) {
     sorted.times[i] = data.times[order[i]];
     sorted.charges[i] = data.charges[order[i]];
+    sorted.widths[i] = data.widths[order[i]];
   }
   data = std::move(sorted);
 }
@@ -44,6 +45,20 @@ bool is_left_out(std::span<const TimeWindow> windows, ModuleId module, double ti
   return std::any_of(windows.begin(), windows.end(), [&](const TimeWindow& window) {
     return concerns(window, module) && time >= window.begin && time < window.end;
   });
+}
+
+// Charge of a pulse to the bins in which its light may lie, evenly over its width.
+void add_spread(double time, double width, double charge, ModuleData& data) {
+  const std::vector<double>& edges = data.edges;
+  double from = time - width / 2;
+  const double end = time + width / 2;
+  auto edge = std::upper_bound(edges.begin(), edges.end(), from);
+  for (; edge != edges.end() && *edge < end; ++edge) {
+    data.counts[static_cast<std::size_t>(edge - edges.begin())] += charge * (*edge - from) / width;
+    from = *edge;
+  }
+  const double rest = width > 0 ? (end - from) / width : 1;
+  data.counts[static_cast<std::size_t>(edge - edges.begin())] += charge * rest;
 }
 
 // Averages over repetitions have scattered less; what they say is not asked, as cascades come once.
@@ -90,6 +105,7 @@ EventData::EventData(const Detector& detector, const Event& event, const DataSel
     if (is_left_out(selection.left_out, hit.module, hit.time)) continue;
     modules[index].times.push_back(hit.time);
     modules[index].charges.push_back(hit.charge * repeats_);
+    modules[index].widths.push_back(hit.width > 0 ? hit.width : 0);  // unknown: as of photons
     first_ = std::min(first_, hit.time);
     last_ = std::max(last_, hit.time);
   }
@@ -174,11 +190,10 @@ void EventData::cut_into_bins(ModuleData& data, std::vector<double> edges) const
                                              : 0.5 * (data.edges[b - 1] + data.edges[b]);
     data.left_out[b] = is_left_out(selection_.left_out, id, inside);
   }
-  for (std::size_t i = 0; i < data.times.size(); ++i) {
-    const auto bin =
-        std::upper_bound(data.edges.begin(), data.edges.end(), data.times[i]) - data.edges.begin();
-    data.counts[static_cast<std::size_t>(bin)] += data.charges[i];
-  }
+  for (std::size_t i = 0; i < data.times.size(); ++i)
+    add_spread(data.times[i], data.widths[i], data.charges[i], data);
+  for (std::size_t b = 0; b < bins; ++b)
+    if (data.left_out[b]) data.counts[b] = 0;
 }
 
 EventData EventData::with_edges(std::span<const std::vector<double>> edges) const {

@@ -17,6 +17,7 @@ struct ModuleData {
   std::uint32_t module = 0;     // index in Detector::modules()
   std::vector<double> times;    // rising [ns]
   std::vector<double> charges;  // of the same length [photoelectrons, of all repetitions together]
+  std::vector<double> widths;   // over which their light may be spread, centred; 0 for photons [ns]
   double charge = 0;            // sum
   // Its charge reached the cap: one bin, whose count is the cap and stands for "so much or more".
   bool saturated = false;

@@ -156,6 +156,24 @@ std::vector<ExtractedPulse> put_together(const std::vector<Trial>& tried, const 
   return pulses;
 }
 
+// Non-negative solutions are spikes: light that lasts comes out as pulses about a pulse's width apart, which
+// stand for all the light between them.
+void spread_out(std::vector<ExtractedPulse>& pulses) {
+  constexpr double least_charge = 1;  // of both neighbours: less is single photoelectrons
+  constexpr double apart = 13,
+                   coarsely_apart = 50;  // less than this, where there is an ATWD trace, elsewhere [ns]
+  constexpr double coarse = 2;           // [ns]; distance of trials elsewhere
+  std::vector<double> reach(pulses.size(), 0);
+  for (std::size_t i = 1; i < pulses.size(); ++i) {
+    const ExtractedPulse &before = pulses[i - 1], &here = pulses[i];
+    const double gap = here.time - before.time;
+    const double close = std::max(before.width, here.width) > coarse ? coarsely_apart : apart;
+    if (gap >= close || std::min(before.charge, here.charge) < least_charge) continue;
+    reach[i - 1] += gap / 2, reach[i] += gap / 2;
+  }
+  for (std::size_t i = 0; i < pulses.size(); ++i) pulses[i].width = std::max(pulses[i].width, reach[i]);
+}
+
 }  // namespace
 
 Extraction extract_pulses(const ExtractionSettings& settings, const Digitisers& digitisers,
@@ -172,6 +190,7 @@ Extraction extract_pulses(const ExtractionSettings& settings, const Digitisers& 
   const auto charges = nonnegative_least_squares(matrix_of(digitisers.charge(), tried, samples.list), counts,
                                                  settings.tolerance);
   result.pulses = put_together(tried, charges, settings.least_charge);
+  spread_out(result.pulses);
   return result;
 }
 

@@ -19,7 +19,9 @@ struct ExtractionSettings {
 
 struct ExtractedPulse {
   double time = 0, charge = 0;  // [ns], in units of the single photoelectron's peak
-  double width = 0;             // distance of the pulses that were tried [ns]
+  // Over which its light may be spread [ns]: the distance of the pulses that were tried, or that of its
+  // neighbours.
+  double width = 0;
 };
 
 struct Extraction {

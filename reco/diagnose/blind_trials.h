@@ -18,13 +18,13 @@
 namespace floe {
 
 struct BlindTrialOptions : RunSettings {
-  int trials = 3;               // of each effect
-  int nothing = 20;             // trials with nothing missing
-  int full = 0;                 // of the effects hidden, so many are hidden again for the whole diagnosis
-  int full_nothing = 0;         // whole diagnoses with nothing missing
-  int pairs = 0;                // whole diagnoses of two effects hidden together
-  int outside = 0;              // and of what the catalogue does not have (outside_effects.h)
-  int folds = 3;                // of whole diagnoses
+  int trials = 3;        // of each effect
+  int nothing = 20;      // trials with nothing missing
+  int full = 0;          // of the effects hidden, so many are hidden again for the whole diagnosis
+  int full_nothing = 0;  // whole diagnoses with nothing missing
+  int pairs = 0;         // whole diagnoses of two effects hidden together
+  int outside = 0;       // and of what the catalogue does not have (outside_effects.h)
+  int folds = 3;         // of whole diagnoses
   // Expected significance of what is hidden, in standard deviations for all places of its effect: what the
   // diagnosis would say, and less than its place alone would be worth.
   double least = 5, most = 12;

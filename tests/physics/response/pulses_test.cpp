@@ -108,6 +108,38 @@ TEST(Pulses, AreInProportionToLightUntilSaturation) {
   }
 }
 
+// Light that lasts is unfolded to spikes some 10 ns apart, but their widths say what lies between: in bins of
+// 6 ns charges differ from the light that came by no more than charges scatter, and a little.
+TEST(Pulses, OfLightThatLastsAreSpreadOverIt) {
+  constexpr int photons = 1200, bins = 40;
+  constexpr double over = 300, first = 30, step = 6;  // [ns]
+  const ModuleElectronics electronics(plain_settings());
+  double as_spikes = 0, spread = 0;  // mean square differences, in units of the photons in a bin
+  constexpr int repeats = 10;
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    RandomStream light(3, 4, static_cast<std::uint64_t>(repeat)),
+        stream(5, 6, static_cast<std::uint64_t>(repeat));
+    std::vector<double> times;
+    for (int i = 0; i < photons; ++i) times.push_back(over * light.uniform());
+    const TubeOutput tube = electronics.tube_output(times, 1, 0, 1, true, stream);
+    const auto pulses = pulses_of(electronics, tube, true);
+    for (int bin = 0; bin < bins; ++bin) {
+      const double low = first + bin * step, high = low + step;
+      double truth = 0, spike = 0, even = 0;
+      for (const Photoelectron& pe : tube.before) truth += pe.time >= low && pe.time < high ? pe.charge : 0;
+      for (const ExtractedPulse& pulse : pulses) {
+        spike += pulse.time >= low && pulse.time < high ? pulse.charge : 0;
+        const double begin = pulse.time - pulse.width / 2, end = begin + pulse.width;
+        even += pulse.charge * std::max(0.0, std::min(high, end) - std::max(low, begin)) / pulse.width;
+      }
+      as_spikes += (spike - truth) * (spike - truth), spread += (even - truth) * (even - truth);
+    }
+  }
+  const double unit = repeats * bins * photons * step / over;
+  EXPECT_LT(spread / unit, 0.5);
+  EXPECT_GT(as_spikes / unit, 1.5);  // else there would be no need
+}
+
 TEST(Pulses, OfBrightFlashesAreSaidToBeSaturated) {
   const ModuleElectronics electronics(plain_settings());
   const auto record_of = [&](int photons, double over) {

@@ -128,6 +128,24 @@ TEST(EventData, LeavesOutWhatFollowsSaturation) {
   EXPECT_EQ(EventData(detector, event).lit()[0].times, (std::vector<double>{0, 250, 900}));
 }
 
+// A pulse that stands for light over 20 ns, from 40 to 60 ns, in bins that end at 45, 55 and 70 ns.
+TEST(EventData, SpreadsPulsesOverTheirWidths) {
+  const Detector detector = small_detector();
+  Event event{"e", {hit(2, 50, 4), hit(2, 80)}, {}, 1};
+  event.hits[0].width = 20;
+  event.readout = record_of(6, 0);
+  const auto counts_with = [&] {
+    return EventData(detector, event)
+        .with_edges(std::vector<std::vector<double>>{{45, 55, 70}})
+        .lit()[0]
+        .counts;
+  };
+  EXPECT_EQ(counts_with(), (std::vector<double>{1, 2, 1, 1}));
+  // What lies in times that are left out is not known.
+  event.readout = record_of(6, 0, {{{1, 2}, 55, 70, UnusableTimes::Reason::dead}});
+  EXPECT_EQ(counts_with(), (std::vector<double>{1, 2, 0, 1}));
+}
+
 // Charges of single photoelectrons, half of them 0.5 and half 1.5: <q^2>/<q> = 1.25.
 TEST(EventData, ModulesWithOnePulseTellHowChargesScatter) {
   const Detector detector = test::one_string(40, 40);
