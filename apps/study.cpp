@@ -14,7 +14,9 @@
 #include "apps/row_journal.h"
 #include "apps/study_rows.h"
 #include "data/base/error.h"
+#include "data/base/hash.h"
 #include "reco/study/summary.h"
+#include "response/response_file.h"
 
 namespace floe {
 namespace {
@@ -26,6 +28,8 @@ struct StudyCommand {
   std::vector<std::string> fit_without;
   std::vector<EffectSetting> fit_with;
   double effort = 1;
+  bool pulses = false;
+  std::optional<std::string> response;  // settings of the electronics; pulses, too
   SimulationSettings run;
   std::optional<std::string> rows, picture;
   OutputOptions output;
@@ -55,6 +59,12 @@ std::optional<ModelRequest> other_model(const StudyCommand& command) {
   return other;
 }
 
+std::optional<ResponseSettings> electronics_of(const StudyCommand& command) {
+  if (command.response) return read_response_file(*command.response);
+  if (command.pulses) return ResponseSettings();
+  return {};
+}
+
 StudySettings settings_of(const StudyCommand& command) {
   StudySettings settings;
   for (const std::string& text : command.groups) settings.groups.push_back(group_of(text));
@@ -67,6 +77,9 @@ StudySettings settings_of(const StudyCommand& command) {
   settings.seed = command.run.seed;
   settings.fit.model_error = 0;  // the simulated data have none
   settings.fit.effort = command.effort;
+  if (const auto electronics = electronics_of(command))
+    settings.response =
+        std::make_shared<DetectorResponse>(*settings.truth.detector, *electronics, settings.seed);
   return settings;
 }
 
@@ -76,16 +89,19 @@ Json heading_of(const StudyCommand& command, const StudySettings& settings) {
   Json oversize = Json::object();
   for (const StudyGroup& group : settings.groups)
     oversize[fmt::format("{:g}", group.energy)] = group.oversize;
-  return {{"journal", "floe study 1"},
-          {"version", FLOE_VERSION},
-          {"seed", settings.seed},
-          {"effort", settings.fit.effort},
-          {"oversize", oversize},
-          {"ice", settings.truth.ice->hash()},
-          {"detector", settings.truth.detector->hash()},
-          {"fit_ice", settings.other ? Json(settings.other->ice->hash()) : Json()},
-          {"with", texts_of(command.model.with)},
-          {"fit_with", texts_of(command.fit_with)}};
+  Json heading = {{"journal", "floe study 1"},
+                  {"version", FLOE_VERSION},
+                  {"seed", settings.seed},
+                  {"effort", settings.fit.effort},
+                  {"oversize", oversize},
+                  {"ice", settings.truth.ice->hash()},
+                  {"detector", settings.truth.detector->hash()},
+                  {"fit_ice", settings.other ? Json(settings.other->ice->hash()) : Json()},
+                  {"with", texts_of(command.model.with)},
+                  {"fit_with", texts_of(command.fit_with)}};
+  if (const auto electronics = electronics_of(command))
+    heading["response"] = Hasher().add(std::string_view(response_file_text(*electronics))).hex();
+  return heading;
 }
 
 struct Task {
@@ -241,6 +257,9 @@ void add_study(CLI::App& floe) {
                       command->fit_with);
   add_number(app, "--effort", "X", {0, 1000, true}, "Multiplies the number of simulated photons",
              command->effort);
+  app.add_flag("--pulses", command->pulses, "Fit what the electronics make of the photons (floe respond)");
+  app.add_option("--response", command->response, "Likewise, with these settings; floe respond --help")
+      ->type_name("FILE.toml");
   add_run_options(app, command->run);
   app.add_option("--rows", command->rows, "Keeps every event; the same command goes on where it was stopped")
       ->type_name("FILE.jsonl");
@@ -251,6 +270,7 @@ void add_study(CLI::App& floe) {
       "  floe study --group 1000,4,20 --rows quick.jsonl --picture quick.svg\n"
       "  floe study --group 1e4,40,10 --group 1e5,40,20 --group 1e6,10,40 --rows study.jsonl\n"
       "  floe study --group 1e4,5,20 --fit-without birefringence --rows bias.jsonl\n"
+      "  floe study --group 1000,4,20 --pulses --rows pulses.jsonl\n"
       "Positions and directions are drawn at random, at least 50 m inside the detector.\n"
       "Fits begin at the data, without the truth.");
   app.callback([command] { run_study(*command); });

@@ -1,5 +1,7 @@
 #include "reco/study/study.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -49,7 +51,7 @@ Event simulate_event(const StudySettings& settings, const StudyGroup& group, con
   options.scale = thinning;
   RandomStream kept(settings.seed, 0x7468696e, key_of(group.energy, row.index));
   Event event;
-  event.id = "study";
+  event.id = fmt::format("study {:g} GeV {}", group.energy, row.index);
   simulator.run(source, options, [&](std::span<const SimulatedHit> hits) {
     for (const SimulatedHit& hit : hits)
       if (kept.uniform() * thinning < 1) event.hits.push_back(to_hit(hit, *settings.truth.detector));
@@ -89,7 +91,8 @@ StudyRow study_event(const StudySettings& settings, const StudyGroup& group, int
   row.energy = group.energy;
   row.index = index;
   row.truth = draw_contained_cascade(*settings.truth.detector, settings.seed, group.energy, index);
-  const Event event = simulate_event(settings, group, row, threads);
+  const Event photons = simulate_event(settings, group, row, threads);
+  const Event event = settings.response ? settings.response->respond(photons, {}, threads).event : photons;
   std::set<ModuleId> modules;
   for (const Hit& hit : event.hits) {
     row.charge += hit.charge;
@@ -113,7 +116,7 @@ StudyRow study_event(const StudySettings& settings, const StudyGroup& group, int
     row.fit = summary_of(fit_cascade(settings.truth, event, options));
   }
   SimulatedLight light(settings.truth, options.kind, options.seed ^ 0x626f756e64, threads);
-  row.bound = cramer_rao_bound(light, row.truth, event, options);
+  row.bound = cramer_rao_bound(light, row.truth, photons, options);
   return row;
 }
 

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "reco/compare.h"
 #include "reco/direct_fit/cascade_fit.h"
+#include "response/detector_response.h"
 
 namespace floe {
 
@@ -25,6 +27,8 @@ struct StudySettings {
   std::vector<StudyGroup> groups;
   std::uint64_t seed = 1;
   FitOptions fit;  // oversize and seed are set for each event
+  // Of the truth's detector: pulses are fitted. None: photons are. Bounds are of photons in any case.
+  std::shared_ptr<const DetectorResponse> response;
 };
 
 struct StudyFit {

@@ -1,6 +1,7 @@
 // floe study on one or two cheap events: what it prints, writes and keeps, and what it refuses.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <vector>
@@ -115,6 +116,24 @@ TEST_F(Study, FitsWithAnotherModelAsWell) {
     EXPECT_TRUE(Json::parse(row).contains(key)) << key;
 }
 
+// Charges of pulses are no whole numbers; the bound is that of the same photons.
+TEST_F(Study, FitsPulses) {
+  const auto row_of = [&](const std::string& arguments, const std::string& rows) {
+    const Outcome outcome = study("--group 300,1,20 --quiet --rows " + rows + arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    std::istringstream lines(text_of(rows));
+    std::string heading, row;
+    std::getline(lines, heading), std::getline(lines, row);
+    return Json::parse(row);
+  };
+  const Json photons = row_of("", "photons"), pulses = row_of(" --pulses", "pulses");
+  EXPECT_EQ(std::fmod(photons["charge"].get<double>(), 1), 0);
+  EXPECT_NE(std::fmod(pulses["charge"].get<double>(), 1), 0);
+  EXPECT_EQ(pulses["truth"], photons["truth"]);
+  EXPECT_EQ(pulses["bound"], photons["bound"]);
+  EXPECT_NE(pulses["fit"]["cascade"], photons["fit"]["cascade"]);
+}
+
 TEST_F(Study, WithMoreEventsOnlyAddsToItsRows) {
   ASSERT_EQ(study("--group 300,1,20 --rows rows --quiet").code, 0);
   const std::string first = text_of("rows");
@@ -142,6 +161,7 @@ TEST_F(Study, DoesNotMixRowsOfOtherSettings) {
   expect_error(study(group + "--without birefringence -o x.svg"), 2, "with ice ");
   expect_error(study(group + "--fit-without birefringence -o x.svg"), 2, "with fit_ice null, not ");
   expect_error(study("--rows rows --group 1,1,10 -o x.svg"), 2, "with oversize ");
+  expect_error(study(group + "--pulses -o x.svg"), 2, "with response unknown, not ");
   EXPECT_EQ(text_of("rows"), rows);
   EXPECT_EQ(files_in(folder_.path()), before);
 }
@@ -187,6 +207,7 @@ const WrongCase cases[] = {
     {"SameEnergyTwice", group + "--group 3e2,1,10", 2, "--group: 300 GeV is given twice"},
     {"NoEffort", group + "--effort 0", 2, "--effort: found \"0\""},
     {"UnknownEffectOfTheOtherFit", group + "--fit-without birefringense", 2, "did you mean 'birefringence'?"},
+    {"ElectronicsMissing", group + "--response no/such.toml", 3, "no/such.toml"},
     {"PictureOfAnotherKind", group + "--picture study.png", 2, "--picture: found \"study.png\""},
     {"JsonFolderMissing", group + "--json no/such/study.json", 5, "no/such"},
     {"PictureFolderMissing", group + "--picture no/such/study.svg", 5, "no/such"},
