@@ -163,6 +163,7 @@ Json table_json(const StudyTable& table) {
   return {{"title", table.title},
           {"events", table.events},
           {"fitted", table.fitted},
+          {"contested", table.contested},
           {"lines", lines},
           {"failures", table.failures}};
 }
