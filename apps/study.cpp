@@ -160,12 +160,8 @@ Json table_json(const StudyTable& table) {
                      {"pull_core_error", line.pull_core_error},
                      {"coverage", line.coverage},
                      {"coverage_error", line.coverage_error}});
-  return {{"title", table.title},
-          {"events", table.events},
-          {"fitted", table.fitted},
-          {"contested", table.contested},
-          {"lines", lines},
-          {"failures", table.failures}};
+  return {{"title", table.title},         {"events", table.events}, {"fitted", table.fitted},
+          {"contested", table.contested}, {"lines", lines},         {"failures", table.failures}};
 }
 
 Json bias_json(const StudyBias& bias, const StudySettings& settings) {

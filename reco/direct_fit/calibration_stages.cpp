@@ -42,6 +42,14 @@ double training_oversize(const EventData& data, const LightCentre& light, double
   return std::max(oversize, std::min(training_oversize(oversize), most));
 }
 
+double rough_oversize(const EventData& data, const LightCentre& light, double oversize) {
+  constexpr double too_wide = 0.5;  // radius, in units of the way there
+  const double usual = training_oversize(oversize);
+  return usual * module_radius > too_wide * nearest_way(data, light)
+             ? training_oversize(data, light, oversize)
+             : usual;
+}
+
 PlaceErrors place_errors(const Matrix7& covariance) {
   return {std::sqrt(covariance.topLeftCorner<3, 3>().trace()),
           std::sqrt(covariance.block<2, 2>(3, 3).trace())};

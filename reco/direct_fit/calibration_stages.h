@@ -12,6 +12,8 @@ double widest_step(const EventData& data, const LightCentre& light);
 
 // training_oversize(oversize), but modules of that size must not reach over that fraction, either.
 double training_oversize(const EventData& data, const LightCentre& light, double oversize);
+// Of rough steps: the same only where modules as wide as usual would reach over half of the way.
+double rough_oversize(const EventData& data, const LightCentre& light, double oversize);
 
 // How well a cascade is known.
 struct PlaceErrors {

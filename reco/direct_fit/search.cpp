@@ -7,6 +7,7 @@
 
 #include "reco/direct_fit/arrival_bins.h"
 #include "reco/direct_fit/calibration_stages.h"
+#include "reco/direct_fit/one_string.h"
 
 namespace floe {
 namespace {
@@ -25,8 +26,7 @@ constexpr double same_place = 8, same_direction = 25 * degree;  // [m]
 constexpr double hopeless = 8, hopeless_errors = 3;
 // And one that is not even so much worse competes with the best.
 constexpr double competing = 3, competing_errors = 1;
-constexpr std::size_t most_minima = 2;  // to follow
-constexpr int contest_parts = 4;        // independent simulations of each minimum
+constexpr int contest_parts = 4;  // independent simulations of each minimum
 constexpr std::uint64_t contest_stream = std::uint64_t{1} << 41;
 
 std::string words(const CascadeParameters& c) {
@@ -153,7 +153,7 @@ std::vector<Search::Minimum> Search::distinct(std::span<const RoundEnd> ends) {
 }
 
 std::vector<Search::Minimum> Search::contest(std::span<const RoundEnd> ends, const PhotonNeed& need,
-                                             double slack) {
+                                             double slack, std::size_t most) {
   std::vector<Minimum> minima = distinct(ends);
   if (minima.size() < 2) return minima;
   // Equal photons and random numbers for all.
@@ -169,12 +169,12 @@ std::vector<Search::Minimum> Search::contest(std::span<const RoundEnd> ends, con
     const Difference worse = difference(minimum.value, best);
     return worse.value > hopeless + hopeless_errors * worse.error + slack * best.neg_llh;
   });
-  if (minima.size() > most_minima) minima.resize(most_minima);
+  if (minima.size() > most) minima.resize(most);
   return minima;
 }
 
 Stage Search::rough_stage(const LightCentre& light) {
-  const double coarse = training_oversize(options_.oversize);
+  const double coarse = rough_oversize(data_, light, options_.oversize);
   return {std::min(8.0, widest_step(data_, light)), 15 * degree, coarse,
           photons_for(cascade_of(light, options_.kind), coarse, {3, 6e5, 3e6})};
 }
@@ -231,6 +231,22 @@ Search::End Search::from_scratch(const PointSeed& point) {
   return from_starts(starts);
 }
 
+std::vector<Search::Minimum> Search::around_only_string(std::vector<Minimum> minima) {
+  constexpr int turns = 6;
+  constexpr std::size_t most_around_string = 3;
+  const std::optional<Vec3> axis = axis_of_only_string(data_);
+  if (!axis) return minima;
+  std::vector<RoundEnd> ends, turned(turns - 1, minima.front().end);
+  for (const Minimum& minimum : minima) ends.push_back(minimum.end);
+  for (int i = 1; i < turns; ++i) {
+    LightCentre& light = turned[static_cast<std::size_t>(i - 1)].light;
+    light = turned_about(*axis, 2 * pi * i / turns, light);
+  }
+  for (const Minimum& minimum : contest(turned, {3, 2e5, 2e6}, 0.5))
+    ends.push_back(settle(minimum.end.light, rough_stage(minimum.end.light), most_rough_rounds, true));
+  return contest(ends, {10, 2e5, 1e7}, 0.2, most_around_string);
+}
+
 // Large steps first. -ln L of ends that have not yet settled is large, and differences mean as little: the
 // worse of them is only left behind when it is worse by a good part of all.
 Search::End Search::from_starts(std::span<const LightCentre> starts) {
@@ -244,25 +260,38 @@ Search::End Search::from_starts(std::span<const LightCentre> starts) {
   ends.clear();
   for (const Minimum& minimum : minima)
     ends.push_back(settle(minimum.end.light, rough_stage(minimum.end.light), most_rough_rounds, true));
-  minima = contest(ends, {10, 2e5, 1e7}, 0.2);
-
+  minima = around_only_string(contest(ends, {10, 2e5, 1e7}, 0.2));
   if (minima.size() < 2) return finish(sharpen(minima.front().end));
-  return better_of(minima[0].end, minima[1].end);
+  return best_of(minima);
 }
 
-// Both to their ends, since what is left of the way counts more than the difference.
-Search::End Search::better_of(const RoundEnd& first, const RoundEnd& second) {
-  End ends[2];
-  ends[0] = finish(sharpen_within_minimum(first));
-  ends[1] = finish(sharpen_within_minimum(second), &ends[0]);
-  if (same_minimum(ends[0].light, ends[1].light)) return ends[ends[0].unsolved && ends[1].converged ? 1 : 0];
-
-  const Difference worse = how_much_worse(ends[1].light, ends[0].light);
-  const int best = worse.value >= 0 ? 0 : 1;
-  const double value = std::abs(worse.value);
-  if (value < competing + competing_errors * worse.error)
-    result_.other_minimum = OtherMinimum{cascade_of(ends[1 - best].light, options_.kind), value, worse.error};
-  return ends[best];
+// All to their ends, since what is left of the way counts more than the differences.
+Search::End Search::best_of(std::span<const Minimum> minima) {
+  std::vector<End> ends;
+  for (const Minimum& minimum : minima) {
+    End end = finish(sharpen_within_minimum(minimum.end), ends);
+    const auto same = std::find_if(ends.begin(), ends.end(),
+                                   [&](const End& other) { return same_minimum(end.light, other.light); });
+    if (same == ends.end())
+      ends.push_back(std::move(end));
+    else if (same->unsolved && end.converged)
+      *same = std::move(end);
+  }
+  std::vector<Difference> worse{{0, 0}};  // than the first
+  for (std::size_t i = 1; i < ends.size(); ++i)
+    worse.push_back(how_much_worse(ends[i].light, ends.front().light));
+  const auto by_value = [](const Difference& a, const Difference& b) { return a.value < b.value; };
+  const auto best = std::min_element(worse.begin(), worse.end(), by_value);
+  const Difference least = *best;
+  const std::size_t place = static_cast<std::size_t>(best - worse.begin());
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    const double value = worse[i].value - least.value, error = std::hypot(worse[i].error, least.error);
+    if (i == place || value >= std::min(nearest, competing + competing_errors * error)) continue;
+    nearest = value;
+    result_.other_minimum = OtherMinimum{cascade_of(ends[i].light, options_.kind), value, error};
+  }
+  return ends[place];
 }
 
 // Modules of the wanted size decide where their noise lets them: minima that mirror each other about a string

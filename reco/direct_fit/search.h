@@ -77,8 +77,9 @@ class Search {
   RoundEnd settle(LightCentre origin, Stage stage, int most, bool follow_light);
   RoundEnd sharpen(const RoundEnd& rough);
   RoundEnd sharpen_within_minimum(const RoundEnd& rough);
-  // Calibrations until one moves no further. Gives up, unconverged, on the way into a minimum that is known.
-  End finish(const RoundEnd& rough, const End* known = nullptr);
+  // Calibrations until one moves no further. Gives up, unconverged, on the way into one of the minima that
+  // are known.
+  End finish(const RoundEnd& rough, std::span<const End> known = {});
   // Errors as far as they are known, how far apart and with how many photons to simulate in the next
   // calibration.
   struct CalibrationNeed {
@@ -98,10 +99,14 @@ class Search {
   Evaluation measure(const LightCentre& light, double oversize, double photons);
   static std::vector<Minimum> distinct(std::span<const RoundEnd> ends);
   // Sorts ends by what fresh simulations of so many photons say, best first; ends that came together count
-  // once, and those worse in -ln L by more than its noise and `slack` times the best are left behind.
-  std::vector<Minimum> contest(std::span<const RoundEnd> ends, const PhotonNeed& need, double slack);
+  // once, and those worse in -ln L by more than its noise and `slack` times the best are left behind, as are
+  // all but the first `most`.
+  std::vector<Minimum> contest(std::span<const RoundEnd> ends, const PhotonNeed& need, double slack,
+                               std::size_t most = 2);
+  // Beside these, where they would be at other azimuths about the only string with light, if there is one.
+  std::vector<Minimum> around_only_string(std::vector<Minimum> minima);
   End from_starts(std::span<const LightCentre> starts);
-  End better_of(const RoundEnd& first, const RoundEnd& second);
+  End best_of(std::span<const Minimum> minima);
   // In -ln L, from equal simulations of both.
   Difference how_much_worse(const LightCentre& one, const LightCentre& other);
   Stage rough_stage(const LightCentre& light);

@@ -23,7 +23,7 @@ constexpr double surely_seen = 4;
 
 }  // namespace
 
-Search::End Search::finish(const RoundEnd& rough, const End* known) {
+Search::End Search::finish(const RoundEnd& rough, std::span<const End> known) {
   End end;
   end.light = rough.light;
   const Vector7& errors = rough.errors;
@@ -37,7 +37,10 @@ Search::End Search::finish(const RoundEnd& rough, const End* known) {
   std::optional<End> found;  // the last solution that stayed near its calibration
   for (int i = 0; i < most_calibrations && !end.converged && !end.unsolved; ++i) {
     calibrate(end, need);
-    if (known && !known->unsolved && same_minimum(end.light, known->light)) return end;
+    if (std::any_of(known.begin(), known.end(), [&](const End& other) {
+          return !other.unsolved && same_minimum(end.light, other.light);
+        }))
+      return end;
     if (end.pull < acceptable_pull) found = end;
   }
   if (!end.converged && found) end = *found;

@@ -1,0 +1,18 @@
+// Light that one string saw alone says nothing of the azimuth about that string: what few photoelectrons
+// others saw has to choose, and searches that walk downhill may end on the wrong side.
+#pragma once
+
+#include <optional>
+
+#include "reco/direct_fit/cascade_parameters.h"
+#include "reco/event_data.h"
+
+namespace floe {
+
+// A point on the string that saw nearly all of the light, if one did.
+std::optional<Vec3> axis_of_only_string(const EventData& data);
+
+// The same light, turned about the vertical through a point by an angle [rad].
+LightCentre turned_about(const Vec3& axis, double angle, const LightCentre& light);
+
+}  // namespace floe

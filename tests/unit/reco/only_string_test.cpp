@@ -1,0 +1,61 @@
+// Events that one string saw alone: their axis, copies at other azimuths, and modules that must not be wide.
+#include <gtest/gtest.h>
+
+#include "propagation/model.h"
+#include "reco/direct_fit/calibration_stages.h"
+#include "reco/direct_fit/one_string.h"
+
+namespace floe {
+namespace {
+
+class OnlyString : public testing::Test {
+ protected:
+  const Model model_ = load_model({});
+
+  Vec3 place(int string, int dom) const {
+    return model_.detector->modules()[model_.detector->index_of({string, dom})].position;
+  }
+  // So many photoelectrons in a module of string 36, and in one of string 45.
+  EventData seen(int here, int elsewhere) const {
+    Event event;
+    event.id = "seen";
+    const auto add = [&](ModuleId module, int count) {
+      for (int i = 0; i < count; ++i) {
+        Hit& hit = event.hits.emplace_back();
+        hit.module = module, hit.time = 100.0 + i;
+      }
+    };
+    add({36, 30}, here), add({45, 30}, elsewhere);
+    return EventData(*model_.detector, event);
+  }
+};
+
+TEST_F(OnlyString, HasNineTenthsOfTheLight) {
+  const auto axis = axis_of_only_string(seen(95, 5));
+  ASSERT_TRUE(axis);
+  EXPECT_EQ((*axis - place(36, 30)).head<2>().norm(), 0);
+  EXPECT_FALSE(axis_of_only_string(seen(85, 15)));
+}
+
+TEST_F(OnlyString, TurnsLightAboutItself) {
+  LightCentre light;
+  light.position = {12, 5, -300}, light.time = 7, light.log_light = 3;
+  light.direction = Vec3(1, 0, -1).normalized();
+  const LightCentre turned = turned_about({10, 5, 0}, pi / 2, light);
+  EXPECT_LT((turned.position - Vec3(10, 7, -300)).norm(), 1e-12);
+  EXPECT_LT((turned.direction - Vec3(0, 1, -1).normalized()).norm(), 1e-12);
+  EXPECT_EQ(turned.time, light.time);
+  EXPECT_EQ(turned.log_light, light.log_light);
+}
+
+// Modules of oversize 50 have a radius of 8.3 m: too wide for light 5 m away, not for light at 60 m.
+TEST_F(OnlyString, RoughModulesDoNotReachOverTheWay) {
+  LightCentre light;
+  light.position = place(36, 30) + Vec3(5, 0, 0);
+  EXPECT_EQ(rough_oversize(seen(95, 5), light, 10), 10);
+  light.position = place(36, 30) + Vec3(0, 0, 60);
+  EXPECT_EQ(rough_oversize(seen(100, 0), light, 10), 50);
+}
+
+}  // namespace
+}  // namespace floe
