@@ -7,6 +7,7 @@
 
 #include "data/base/error.h"
 #include "reco/direct_fit/goodness_of_fit.h"
+#include "reco/direct_fit/information_bound.h"
 #include "reco/direct_fit/instrumented_volume.h"
 #include "reco/direct_fit/search.h"
 #include "reco/direct_fit/seed.h"
@@ -19,6 +20,9 @@ constexpr double outside_by = 60;                                    // from the
 constexpr int evaluations = 3;                                       // independent simulations of the result
 constexpr std::uint64_t evaluation_stream = std::uint64_t{1} << 40;  // beyond those of the search
 constexpr std::size_t pictured_modules = 12;
+// Of weights that are noise, or of the emulator's curvature, errors come out too small: the Cramer-Rao bound
+// has simulations of its own.
+constexpr double trusted_loss = 1.5;
 
 void check(const FitOptions& o) {
   const auto need = [](bool valid, const std::string& what) {
@@ -119,6 +123,8 @@ void find_result(ExpectationModel& light, const EventData& data, const FitOption
   fit.cascade = cascade_of(end.light, options.kind);
   const Matrix7 jacobian = LocalFrame(end.light).jacobian(Vector7::Zero(), options.kind);
   fit.covariance = jacobian * end.covariance * jacobian.transpose();
+  if (end.converged && end.weight_loss() > trusted_loss)
+    fit.covariance = no_less_than(cramer_rao_bound(light, fit.cascade, data, options), fit.covariance);
   if (fit.other_minimum) fit.covariance = with_other_minimum(fit.covariance, fit.cascade, *fit.other_minimum);
 
   judge(end, data, track, fit);

@@ -1,5 +1,7 @@
 #include "reco/direct_fit/information_bound.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <memory>
 
@@ -18,12 +20,12 @@ constexpr double acceptable_loss = 1.25;  // what is left is taken out
 
 class BoundSimulations {
  public:
-  BoundSimulations(ExpectationModel& light, const CascadeParameters& truth, const Event& event,
+  BoundSimulations(ExpectationModel& light, const CascadeParameters& truth, const EventData& data,
                    const FitOptions& options)
       : light_(light),
         truth_(truth),
         options_(options),
-        measured_(*light.model().detector, event, options.selection),
+        measured_(data),
         frame_(light_centre(truth, options.kind)),
         ice_(*light.model().ice) {}
 
@@ -72,7 +74,7 @@ class BoundSimulations {
   ExpectationModel& light_;
   const CascadeParameters& truth_;
   const FitOptions& options_;
-  EventData measured_;
+  const EventData& measured_;
   LocalFrame frame_;
   MeanIce ice_;
   std::vector<std::unique_ptr<LightSample>> samples_;
@@ -82,15 +84,30 @@ class BoundSimulations {
 
 }  // namespace
 
-Matrix7 cramer_rao_bound(ExpectationModel& light, const CascadeParameters& truth, const Event& event,
+Matrix7 cramer_rao_bound(ExpectationModel& light, const CascadeParameters& truth, const EventData& data,
                          const FitOptions& options) {
-  BoundSimulations bound(light, truth, event, options);
+  BoundSimulations bound(light, truth, data, options);
   InformationBound found = bound.improve(first_errors, first_training);
-  for (int pass = 1; pass < most_passes && (pass == 1 || found.weight_loss > acceptable_loss); ++pass)
-    found =
+  for (int pass = 1; pass < most_passes && (pass == 1 || found.weight_loss > acceptable_loss); ++pass) {
+    const InformationBound now =
         bound.improve(found.covariance.allFinite() ? place_errors(found.covariance) : first_errors, training);
+    // Steps that follow the errors of weights that are mostly noise only make them worse.
+    if (pass == 1 || now.weight_loss < found.weight_loss) found = now;
+  }
   const Matrix7 jacobian = bound.frame().jacobian(Vector7::Zero(), options.kind);
   return jacobian * found.covariance * jacobian.transpose();
+}
+
+Matrix7 no_less_than(const Matrix7& bound, const Matrix7& covariance) {
+  if (!bound.allFinite() || !covariance.allFinite()) return covariance;
+  const Eigen::LLT<Matrix7> root(bound);
+  if (root.info() != Eigen::Success) return covariance;
+  // Where the bound is 1 in all directions, variances below 1 are raised.
+  const Matrix7 half = root.matrixL().solve(covariance);
+  const Eigen::SelfAdjointEigenSolver<Matrix7> parts(root.matrixL().solve(half.transpose()));
+  const Vector7 raised = parts.eigenvalues().cwiseMax(1.0);
+  const Matrix7 directions = root.matrixL() * parts.eigenvectors();
+  return directions * raised.asDiagonal() * directions.transpose();
 }
 
 }  // namespace floe

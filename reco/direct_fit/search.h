@@ -47,6 +47,8 @@ class Search {
     std::shared_ptr<const Calibration> calibration;  // of the last step; empty when the score has no solution
     // When the calibrated score has a solution: the likelihood around it. Search and end must outlive it.
     std::optional<ScoreLikelihood> likelihood() const;
+    // See InformationBound; infinite without a calibrated score.
+    double weight_loss() const;
   };
   End from_scratch(const PointSeed& point);
   End from(const CascadeParameters& start);

@@ -138,6 +138,10 @@ void Search::calibrate(End& end, CalibrationNeed& need) {
   if (!enough_light) need.training = std::min(most_training, 3 * need.training);
 }
 
+double Search::End::weight_loss() const {
+  return calibration ? calibration->solution.weight_loss : std::numeric_limits<double>::infinity();
+}
+
 std::optional<ScoreLikelihood> Search::End::likelihood() const {
   if (!calibration || !calibration->solution.converged) return std::nullopt;
   return score_likelihood(calibration->data, std::span<const ScoreFold, 2>(calibration->folds),

@@ -116,7 +116,8 @@ StudyRow study_event(const StudySettings& settings, const StudyGroup& group, int
     row.fit = summary_of(fit_cascade(settings.truth, event, options));
   }
   SimulatedLight light(settings.truth, options.kind, options.seed ^ 0x626f756e64, threads);
-  row.bound = cramer_rao_bound(light, row.truth, photons, options);
+  row.bound = cramer_rao_bound(light, row.truth,
+                               EventData(*settings.truth.detector, photons, options.selection), options);
   return row;
 }
 

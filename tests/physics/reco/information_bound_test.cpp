@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "reco/direct_fit/arrival_bins.h"
@@ -72,9 +73,9 @@ Bounds bounds(const CascadeParameters& truth, std::uint64_t seed) {
   FitOptions options;
   options.threads = 2;
   options.seed = seed;
-  const Matrix7 measured = cramer_rao_bound(light, truth, event, options);
-
   const EventData data(*light.model().detector, event);
+  const Matrix7 measured = cramer_rao_bound(light, truth, data, options);
+
   const LocalFrame frame(light_centre(truth, options.kind));
   const LightSample sample = light.sample({truth, 20 * light.photons_per_cascade(truth, 5), 5, 900000});
   const LightSample* const samples[] = {&sample};
@@ -99,6 +100,24 @@ TEST(InformationBound, IsThatOfLightInClosedForm) {
     }
   }
   EXPECT_NEAR(std::exp(sum), 1.05, 0.08);
+}
+
+// Errors of a fit that its own noise made small come up to the bound; others stay as they are.
+TEST(NoLessThan, RaisesWhatIsBelowTheBoundInAnyDirection) {
+  Matrix7 mix = Matrix7::Identity();
+  mix(0, 1) = 0.7, mix(2, 5) = -0.4, mix(6, 3) = 2;
+  Vector7 of_bound, of_fit;
+  of_bound << 1, 4, 1e-4, 9, 1, 2, 1e6;
+  of_fit << 0.25, 9, 1e-4, 0.01, 1, 8, 4e6;
+  const Matrix7 bound = mix * of_bound.asDiagonal() * mix.transpose(),
+                fit = mix * of_fit.asDiagonal() * mix.transpose(),
+                expected = mix * of_bound.cwiseMax(of_fit).asDiagonal() * mix.transpose();
+  const Matrix7 raised = no_less_than(bound, fit);
+  for (int i = 0; i < 7; ++i)
+    for (int k = 0; k < 7; ++k)
+      EXPECT_NEAR(raised(i, k), expected(i, k), 1e-9 * std::sqrt(expected(i, i) * expected(k, k)));
+  const Matrix7 open = Matrix7::Constant(std::numeric_limits<double>::infinity());
+  EXPECT_EQ(no_less_than(open, fit), fit);
 }
 
 }  // namespace
