@@ -50,7 +50,7 @@ struct Event {
   std::optional<Readout> readout = {};     // when the hits are pulses of which that is known
 };
 
-// How late its pulses are; nothing for photons.
+// When its pulses come after their light; nothing for photons.
 inline std::vector<ExpectedDelay> late_pulses(const Event& event) {
   return event.readout ? event.readout->delays : std::vector<ExpectedDelay>();
 }
