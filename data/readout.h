@@ -28,7 +28,8 @@ struct ExpectedAfterpulses {
   bool operator==(const ExpectedAfterpulses&) const = default;
 };
 
-// A share of the charge comes so much later than its light (negative: earlier), evenly between two times [ns].
+// A share of the charge comes so much later than its light (negative: earlier), evenly between two times
+// [ns].
 struct ExpectedDelay {
   double share = 0, begin = 0, end = 0;
   bool operator==(const ExpectedDelay&) const = default;
