@@ -65,7 +65,7 @@ std::optional<ResponseSettings> electronics_of(const StudyCommand& command) {
   return {};
 }
 
-StudySettings settings_of(const StudyCommand& command) {
+StudySettings settings_of(const StudyCommand& command, const std::optional<ResponseSettings>& electronics) {
   StudySettings settings;
   for (const std::string& text : command.groups) settings.groups.push_back(group_of(text));
   for (std::size_t i = 0; i < settings.groups.size(); ++i)
@@ -77,7 +77,7 @@ StudySettings settings_of(const StudyCommand& command) {
   settings.seed = command.run.seed;
   settings.fit.model_error = 0;  // the simulated data have none
   settings.fit.effort = command.effort;
-  if (const auto electronics = electronics_of(command))
+  if (electronics)
     settings.response =
         std::make_shared<DetectorResponse>(*settings.truth.detector, *electronics, settings.seed);
   return settings;
@@ -85,7 +85,8 @@ StudySettings settings_of(const StudyCommand& command) {
 
 // All that rows depend on. (Hashes do not tell how modules accept light; what --with changes of that stands
 // beside them.)
-Json heading_of(const StudyCommand& command, const StudySettings& settings) {
+Json heading_of(const StudyCommand& command, const StudySettings& settings,
+                const std::optional<ResponseSettings>& electronics) {
   Json oversize = Json::object();
   for (const StudyGroup& group : settings.groups)
     oversize[fmt::format("{:g}", group.energy)] = group.oversize;
@@ -99,7 +100,7 @@ Json heading_of(const StudyCommand& command, const StudySettings& settings) {
                   {"fit_ice", settings.other ? Json(settings.other->ice->hash()) : Json()},
                   {"with", texts_of(command.model.with)},
                   {"fit_with", texts_of(command.fit_with)}};
-  if (const auto electronics = electronics_of(command))
+  if (electronics)
     heading["response"] = Hasher().add(std::string_view(response_file_text(*electronics))).hex();
   return heading;
 }
@@ -196,11 +197,12 @@ void run_study(const StudyCommand& command) {
   if (command.picture && !command.picture->ends_with(".svg"))
     throw UsageError(
         fmt::format("--picture: found \"{}\"; expected a name that ends in .svg", *command.picture));
-  const StudySettings settings = settings_of(command);
+  const std::optional<ResponseSettings> electronics = electronics_of(command);
+  const StudySettings settings = settings_of(command, electronics);
   PlannedOutput json(command.output.json), picture(command.picture);
   std::unique_ptr<RowJournal> journal;
   if (command.rows)
-    journal = std::make_unique<RowJournal>(*command.rows, heading_of(command, settings),
+    journal = std::make_unique<RowJournal>(*command.rows, heading_of(command, settings, electronics),
                                            RowJournal::Mismatch::error);
   const std::vector<StudyRow> rows = run_events(command, settings, journal.get());
 

@@ -160,9 +160,8 @@ std::vector<ExtractedPulse> put_together(const std::vector<Trial>& tried, const 
 // stand for all the light between them.
 void spread_out(std::vector<ExtractedPulse>& pulses) {
   constexpr double least_charge = 1;  // of both neighbours: less is single photoelectrons
-  constexpr double apart = 13,
-                   coarsely_apart = 50;  // less than this, where there is an ATWD trace, elsewhere [ns]
-  constexpr double coarse = 2;           // [ns]; distance of trials elsewhere
+  // Closer than this, where there is an ATWD trace, and elsewhere, where trials are coarse [ns].
+  constexpr double apart = 13, coarsely_apart = 50, coarse = 2;
   std::vector<double> reach(pulses.size(), 0);
   for (std::size_t i = 1; i < pulses.size(); ++i) {
     const ExtractedPulse &before = pulses[i - 1], &here = pulses[i];

@@ -198,12 +198,14 @@ class Diagnoser {
   // it.
   bool is_confirmed(const DiagnosisStep& now) const {
     const Trial& best = now.trials.front();
-    const auto& effects = now.scores.effects;
-    const auto score = std::find_if(effects.begin(), effects.end(), [&](const EffectScore& effect) {
-      return effect.best.suspect.effect == best.suspect.effect;
-    });
     const double least = 3 + 0.5 * static_cast<double>(best.parameters.size());
-    return best.chi_square / 2 > std::max(least, confirmed_share * score->best.gain);
+    return best.chi_square / 2 > std::max(least, confirmed_share * score_of_winner(now).best.gain);
+  }
+  // Every trial is of an effect that has a score.
+  static const EffectScore& score_of_winner(const DiagnosisStep& now) {
+    const std::string& winner = now.trials.front().suspect.effect;
+    return *std::find_if(now.scores.effects.begin(), now.scores.effects.end(),
+                         [&](const EffectScore& score) { return score.best.suspect.effect == winner; });
   }
 
   // A plain effect has one value in a model.
@@ -278,17 +280,13 @@ class Diagnoser {
 
   // Whether this might as well be what is missing as the winner of the contest.
   static bool cannot_be_told(const EffectScore& other, const DiagnosisStep& now) {
-    const std::string &effect = other.best.suspect.effect, &winner = now.trials.front().suspect.effect;
-    if (effect == winner) return false;
+    const std::string& effect = other.best.suspect.effect;
+    if (effect == now.trials.front().suspect.effect) return false;
     for (const Trial& trial : now.trials)
       if (trial.suspect.effect == effect) return lost_narrowly(trial);  // fits decide where there are some
     // Likeness is known to the leader of the scores: who is like the leader, as the winner is, is alike.
     const EffectScore& leader = now.scores.effects.front();
-    const auto& scores = now.scores.effects;
-    const auto score = std::find_if(scores.begin(), scores.end(), [&](const EffectScore& candidate) {
-      return candidate.best.suspect.effect == winner;
-    });
-    return score != scores.end() && is_inseparable(*score, leader) && is_inseparable(other, leader);
+    return is_inseparable(score_of_winner(now), leader) && is_inseparable(other, leader);
   }
 
   void take(const IceFit& fit) {
