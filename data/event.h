@@ -50,8 +50,8 @@ struct Event {
   std::optional<Readout> readout = {};     // when the hits are pulses of which that is known
 };
 
-// When its pulses come after their light; nothing for photons.
-inline std::vector<ExpectedDelay> late_pulses(const Event& event) {
+// When its pulses come, counted from their light (readout.h); nothing for photons.
+inline std::vector<ExpectedDelay> pulse_delays(const Event& event) {
   return event.readout ? event.readout->delays : std::vector<ExpectedDelay>();
 }
 

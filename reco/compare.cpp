@@ -56,8 +56,8 @@ ModelComparison compare_models(const Model& a, const Model& b, const Event& even
   ModelComparison result;
   result.event = event.id;
 
-  SimulatedLight light_a(a, options.kind, options.seed, options.threads, late_pulses(event));
-  SimulatedLight light_b(b, options.kind, options.seed, options.threads, late_pulses(event));
+  SimulatedLight light_a(a, options.kind, options.seed, options.threads, pulse_delays(event));
+  SimulatedLight light_b(b, options.kind, options.seed, options.threads, pulse_delays(event));
   result.fits[0] = fit_cascade(light_a, data, options, part(progress, 0, 0.5, "A"));
   FitOptions second = options;
   if (result.fits[0].usable()) second.start = result.fits[0].cascade;

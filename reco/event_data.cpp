@@ -9,6 +9,7 @@
 
 #include "data/base/error.h"
 #include "reco/likelihood/bayesian_blocks.h"
+#include "reco/spread_charge.h"
 #include "response/afterpulses.h"
 
 namespace floe {
@@ -45,20 +46,6 @@ bool is_left_out(std::span<const TimeWindow> windows, ModuleId module, double ti
   return std::any_of(windows.begin(), windows.end(), [&](const TimeWindow& window) {
     return concerns(window, module) && time >= window.begin && time < window.end;
   });
-}
-
-// Charge of a pulse to the bins in which its light may lie, evenly over its width.
-void add_spread(double time, double width, double charge, ModuleData& data) {
-  const std::vector<double>& edges = data.edges;
-  double from = time - width / 2;
-  const double end = time + width / 2;
-  auto edge = std::upper_bound(edges.begin(), edges.end(), from);
-  for (; edge != edges.end() && *edge < end; ++edge) {
-    data.counts[static_cast<std::size_t>(edge - edges.begin())] += charge * (*edge - from) / width;
-    from = *edge;
-  }
-  const double rest = width > 0 ? (end - from) / width : 1;
-  data.counts[static_cast<std::size_t>(edge - edges.begin())] += charge * rest;
 }
 
 // Averages over repetitions have scattered less; what they say is not asked, as cascades come once.
@@ -191,7 +178,7 @@ void EventData::cut_into_bins(ModuleData& data, std::vector<double> edges) const
     data.left_out[b] = is_left_out(selection_.left_out, id, inside);
   }
   for (std::size_t i = 0; i < data.times.size(); ++i)
-    add_spread(data.times[i], data.widths[i], data.charges[i], data);
+    add_spread(data.times[i], data.widths[i], data.charges[i], data.edges, data.counts);
   for (std::size_t b = 0; b < bins; ++b)
     if (data.left_out[b]) data.counts[b] = 0;
 }

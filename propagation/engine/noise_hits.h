@@ -14,6 +14,10 @@ inline constexpr double seconds_per_nanosecond = 1e-9;
 
 // Photons of a simulation have smaller numbers.
 inline constexpr std::uint64_t first_noise_hit = std::uint64_t{1} << 62;
+// Whether a photon's path led to the hit; there is none to noise and to afterpulses.
+inline bool has_path(const SimulatedHit& hit) {
+  return hit.photon < first_noise_hit;
+}
 
 struct NoiseWindow {
   double from = 0, to = 5000;  // times of hits in one readout [ns]

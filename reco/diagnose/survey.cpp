@@ -141,7 +141,7 @@ class Surveyor {
   RunRequest request(std::size_t r, std::uint64_t purpose, double photons) const {
     return request_of(data_.runs[r], settings_, photons,
                       first_stream + plan_.stream * streams_a_survey + r * streams_a_run + purpose,
-                      data_.runs[r].charge / look_.hits_per_photon[r]);
+                      look_.brightness[r]);
   }
 
   void look_at(std::size_t r) {
@@ -150,7 +150,7 @@ class Surveyor {
       progress_(static_cast<double>(r) / static_cast<double>(data_.runs.size()),
                 fmt::format("light of {} and all that could change it", run.name));
     const double photons = photons_wanted(run, look_.hits_per_photon[r], settings_.light);
-    const double brightness = run.charge / look_.hits_per_photon[r];
+    const double brightness = look_.brightness[r];
     const auto [bins, time_zero, scouted] =
         view_run(point_.model(), request(r, 0, photons), run, brightness, settings_.model_error);
 

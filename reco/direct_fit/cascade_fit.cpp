@@ -169,7 +169,7 @@ CascadeFit fit_cascade(const Model& model, const Event& event, const FitOptions&
                        const Progress& progress) {
   check(options);
   const EventData data(*model.detector, event, options.selection);
-  SimulatedLight light(model, options.kind, options.seed, options.threads, late_pulses(event));
+  SimulatedLight light(model, options.kind, options.seed, options.threads, pulse_delays(event));
   return fit_cascade(light, data, options, progress);
 }
 

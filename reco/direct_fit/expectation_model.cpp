@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "propagation/engine/random.h"
+#include "reco/pulse_delays.h"
 
 namespace floe {
 
@@ -34,18 +34,6 @@ double SimulatedLight::photons_per_cascade(const CascadeParameters& cascade, dou
   return simulator(oversize).photons_to_propagate(source);
 }
 
-// The same for the same photon at the same module, so that simulations with common random numbers keep them.
-float SimulatedLight::delay(const LightRequest& request, const SimulatedHit& hit) const {
-  constexpr std::uint64_t purpose = std::uint64_t{0x64656c61} << 32, most_modules = 1 << 20;
-  if (delays_.empty()) return 0;
-  RandomStream random(seed_, request.stream ^ purpose, hit.photon * most_modules + hit.module);
-  double kind = random.uniform();
-  for (const ExpectedDelay& late : delays_)
-    if ((kind -= late.share) < 0)
-      return static_cast<float>(late.begin + (late.end - late.begin) * random.uniform());
-  return 0;
-}
-
 LightSample SimulatedLight::sample(const LightRequest& request) {
   // Times are counted from the vertex, where single precision is best.
   Cascade cascade = to_cascade(request.cascade, kind_);
@@ -63,9 +51,10 @@ LightSample SimulatedLight::sample(const LightRequest& request) {
   options.threads = threads_;
   options.scale = result.repeats;
   options.fixed_number = true;
+  const PulseDelays delay(delays_, seed_, request.stream);
   std::vector<std::pair<std::uint32_t, float>> hits;
   const auto summary = walker.run(source, options, [&](std::span<const SimulatedHit> portion) {
-    for (const SimulatedHit& hit : portion) hits.emplace_back(hit.module, hit.time + delay(request, hit));
+    for (const SimulatedHit& hit : portion) hits.emplace_back(hit.module, hit.time + delay(hit));
   });
   result.propagated = summary.propagated;
   fill(result, model_.detector->size(), std::move(hits));

@@ -58,7 +58,6 @@ class SimulatedLight : public ExpectationModel {
 
  private:
   const Simulator& simulator(double oversize);
-  float delay(const LightRequest& request, const SimulatedHit& hit) const;
 
   Model model_;
   CascadeKind kind_;

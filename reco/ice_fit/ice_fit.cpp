@@ -93,7 +93,7 @@ class Fit {
     fit_.left_out = data_.left_out;
     for (std::size_t r = 0; r < states_.size(); ++r) {
       states_[r].hits_per_photon = look.hits_per_photon[r];
-      states_[r].brightness = data_.runs[r].charge / states_[r].hits_per_photon;
+      states_[r].brightness = look.brightness[r];
     }
   }
 

@@ -17,12 +17,12 @@ double variance_of_difference(Eigen::Index bins, double light) {
 
 ModelJudge::ModelJudge(const Model& base, const FlasherData& data, const FirstLook& look,
                        const RunSettings& settings, std::uint64_t stream)
-    : data_(data), settings_(settings), stream_(stream), hits_per_photon_(look.hits_per_photon) {
+    : data_(data), settings_(settings), stream_(stream), brightness_(look.brightness) {
   for (std::size_t r = 0; r < data_.runs.size(); ++r) {
     const RunData& run = data_.runs[r];
     photons_.push_back(photons_wanted(run, look.hits_per_photon[r], settings_.light));
-    views_.push_back(view_run(base, request(r, 0, photons_[r]), run, run.charge / look.hits_per_photon[r],
-                              settings_.model_error));
+    views_.push_back(
+        view_run(base, request(r, 0, photons_[r]), run, look.brightness[r], settings_.model_error));
     squared_noise_ +=
         variance_of_difference(views_[r].bins.size(), photons_[r] * look.hits_per_photon[r] / run.charge);
   }
@@ -30,7 +30,7 @@ ModelJudge::ModelJudge(const Model& base, const FlasherData& data, const FirstLo
 
 RunRequest ModelJudge::request(std::size_t run, std::uint64_t purpose, double photons) const {
   return request_of(data_.runs[run], settings_, photons, stream_ + purpose * data_.runs.size() + run,
-                    data_.runs[run].charge / hits_per_photon_[run]);
+                    brightness_[run]);
 }
 
 RunMeasurement ModelJudge::measure(const Model& model, std::size_t run) const {

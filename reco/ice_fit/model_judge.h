@@ -41,7 +41,7 @@ class ModelJudge {
   const FlasherData& data_;
   RunSettings settings_;
   std::uint64_t stream_;
-  std::vector<double> hits_per_photon_;
+  std::vector<double> brightness_;
   std::vector<double> photons_;
   std::vector<RunView> views_;
   double squared_noise_ = 0;

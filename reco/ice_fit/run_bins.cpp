@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "reco/spread_charge.h"
+
 namespace floe {
 
 namespace {
@@ -48,6 +50,15 @@ int RunBins::bin(std::uint32_t module, double time) const {
   const Receiver& r = receivers_[static_cast<std::size_t>(receiver)];
   const auto above = std::upper_bound(r.inner_edges.begin(), r.inner_edges.end(), time);
   return r.first + static_cast<int>(above - r.inner_edges.begin());
+}
+
+void RunBins::add_spread(std::uint32_t module, double time, double width, double charge,
+                         Eigen::VectorXd& counts) const {
+  const int receiver = receiver_of_[module];
+  if (receiver < 0) return;
+  const Receiver& r = receivers_[static_cast<std::size_t>(receiver)];
+  floe::add_spread(time, width, charge, r.inner_edges,
+                   {counts.data() + r.first, static_cast<std::size_t>(r.bins())});
 }
 
 }  // namespace floe

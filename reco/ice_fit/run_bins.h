@@ -1,6 +1,7 @@
 // In which bins of module and time a flasher run's light is compared.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -34,6 +35,10 @@ class RunBins {
   std::vector<int> receiver_of_bin() const;  // by bin: index into receivers()
   // The bin of a hit; -1 when its module is not a receiver.
   int bin(std::uint32_t module, double time) const;
+  // Adds a pulse whose light is spread over `width` [ns] to counts by bin; nothing when its module is no
+  // receiver.
+  void add_spread(std::uint32_t module, double time, double width, double charge,
+                  Eigen::VectorXd& counts) const;
 
  private:
   std::vector<Receiver> receivers_;  // by module, rising

@@ -46,6 +46,7 @@ void leave_out_recorded_badly(const Detector& detector, const Readout& readout, 
 void take_record(const Readout& readout, RunData& data) {
   data.first = readout.begin, data.last = readout.end;
   data.afterpulses = readout.afterpulses;
+  data.delays = readout.delays;
   double on = 0;
   for (const RecordingModule& module : *readout.modules) {
     if (!module.on) continue;
@@ -69,7 +70,7 @@ RunData run_data(const Detector& detector, const Event& event) {
   for (const Hit& hit : event.hits) {
     const auto module = static_cast<std::uint32_t>(detector.index_of(hit.module));
     if (!data.used[module]) continue;
-    data.pulses.push_back({module, hit.time, hit.charge * event.repeats});
+    data.pulses.push_back({module, hit.time, hit.width > 0 ? hit.width : 0, hit.charge * event.repeats});
     data.charge += data.pulses.back().charge;
   }
   if (!data.pulses.empty()) {
@@ -107,7 +108,7 @@ void leave_out_runs(FlasherData& data, Problem problem) {
 Eigen::VectorXd RunData::counts(const RunBins& bins) const {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(bins.size());
   for (const Pulse& pulse : pulses)
-    if (const int bin = bins.bin(pulse.module, pulse.time); bin >= 0) result(bin) += pulse.charge;
+    bins.add_spread(pulse.module, pulse.time, pulse.width, pulse.charge, result);
   return result;
 }
 

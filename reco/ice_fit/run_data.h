@@ -16,7 +16,7 @@ namespace floe {
 struct RunData {
   struct Pulse {
     std::uint32_t module;
-    double time, charge;  // charge of all flashes together
+    double time, width, charge;  // its light may be spread over the width; charge of all flashes together
   };
   std::string name;
   FlasherRun run;
@@ -28,7 +28,8 @@ struct RunData {
   double first = 0, last = 0;  // when modules were awake [ns]
   double noise_rate = 0;       // of dark noise, charge a module and second [pe/s]
   ExpectedAfterpulses afterpulses = {.share = 0};
-  double charge_dispersion = 1;  // variance of the charge over that of the number of photoelectrons
+  std::vector<ExpectedDelay> delays;  // of the pulses of light
+  double charge_dispersion = 1;       // variance of the charge over that of the number of photoelectrons
 
   Eigen::VectorXd counts(const RunBins& bins) const;
 };

@@ -7,6 +7,7 @@
 
 #include "propagation/sources/flasher.h"
 #include "reco/ice_fit/smooth_slopes.h"
+#include "reco/pulse_delays.h"
 #include "response/afterpulses.h"
 
 namespace floe {
@@ -71,6 +72,8 @@ SimulatedRun simulate_run(const Model& model, const RunRequest& request) {
                               run.hits.insert(run.hits.end(), hits.begin(), hits.end());
                             })
                        .propagated;
+  const PulseDelays delay_of(request.delays, request.seed, request.stream);
+  for (SimulatedHit& hit : run.hits) hit.time += delay_of(hit);
   add_afterpulses(request, run);
   NoiseWindow noise = request.noise;
   noise.readouts *= request.photons;
@@ -103,13 +106,14 @@ RunLight light_with_slopes(const Model& model, const RunRequest& request, const 
     light.symmetric[static_cast<std::size_t>(p)] = map.is_symmetric(p);
   std::vector<std::uint64_t> photons;
   for (const SimulatedHit& hit : run.hits)
-    if (hit.photon < first_noise_hit && (photons.empty() || photons.back() != hit.photon) &&
+    if (has_path(hit) && (photons.empty() || photons.back() != hit.photon) &&
         bins.bin(hit.module, hit.time) >= 0)
       photons.push_back(hit.photon);
   const Vec3 flasher = model.detector->modules()[model.detector->index_of(request.run.module)].position;
   light.places = bin_places(bins, *model.detector, flasher, model.ice->flow_azimuth());
   const FlasherSource source = source_of(model, request);
   const auto tracer = make_path_tracer(model, request.oversize);
+  const PulseDelays delay_of(request.delays, request.seed, request.stream);
   const int threads = request.threads > 0 ? request.threads : omp_get_num_procs();
   const std::size_t share = (photons.size() + parts - 1) / parts;
   std::vector<std::array<LightFold, 2>> sums(parts);
@@ -122,7 +126,7 @@ RunLight light_with_slopes(const Model& model, const RunRequest& request, const 
     Eigen::VectorXd scores, dwell;
     tracer->trace(source, request.seed, request.stream, some,
                   [&](const SimulatedHit& hit, const PathScores& path) {
-                    const int bin = bins.bin(hit.module, hit.time + time_zero);
+                    const int bin = bins.bin(hit.module, hit.time + delay_of(hit) + time_zero);
                     if (bin < 0) return;
                     map.scores(path, scores, dwell);
                     LightFold& fold = sums[part][hit.photon & 1];

@@ -45,6 +45,7 @@ struct RunRequest {
   // In which noise is simulated, too; readouts of one N.
   NoiseWindow noise = {0, 0, 0};
   ExpectedAfterpulses afterpulses = {.share = 0};
+  std::vector<ExpectedDelay> delays = {};  // of the pulses of light
 };
 
 // All hits of a run.

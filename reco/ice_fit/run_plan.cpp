@@ -1,6 +1,7 @@
 #include "reco/ice_fit/run_plan.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "data/base/error.h"
 #include "reco/ice_fit/run_likelihood.h"
@@ -12,6 +13,15 @@ namespace {
 constexpr double scout_share = 0.1;    // of a run's light: where to put the bins
 constexpr double first_photons = 3e8;  // N of the first look at a run
 constexpr double saturation = 500;     // photoelectrons of a flash
+constexpr double least_light = 0.1;    // of a run's charge
+
+// The charge of the data less its dark noise.
+double charge_of_light(const Model& model, const RunData& run) {
+  const auto modules = static_cast<double>(std::ranges::count(run.used, char{1}));
+  const double noise = (model.noise_rate + run.noise_rate) * seconds_per_nanosecond * (run.last - run.first) *
+                       run.repeats * modules;
+  return std::max(least_light * run.charge, run.charge - noise);
+}
 
 }  // namespace
 
@@ -29,8 +39,10 @@ FirstLook look_first(const Model& model, const RequestOfRun& request, FlasherDat
     for (const SimulatedHit& hit : simulated.back().hits) expected.back()[hit.module] += run.charge / hits;
   }
   leave_out_bad_receivers(*model.detector, expected, saturation, data);
-  for (std::size_t r = 0; r < data.runs.size(); ++r)
+  for (std::size_t r = 0; r < data.runs.size(); ++r) {
     look.hits_per_photon.push_back(std::max(1.0, used_hits(simulated[r], data.runs[r])) / first_photons);
+    look.brightness.push_back(charge_of_light(model, data.runs[r]) / look.hits_per_photon.back());
+  }
   return look;
 }
 
@@ -62,7 +74,8 @@ RunRequest request_of(const RunData& run, const RunSettings& settings, double ph
           stream,
           settings.threads,
           noise_window(run, brightness),
-          run.afterpulses};
+          run.afterpulses,
+          run.delays};
 }
 
 Scout scout_run(const Model& model, RunRequest request, double time_zero) {
@@ -73,7 +86,9 @@ Scout scout_run(const Model& model, RunRequest request, double time_zero) {
 }
 
 RunBins bins_of(const Scout& scout, const RunData& run, double brightness) {
-  return RunBins(scout.simulated.hits, brightness / scout.photons, run.used, {});
+  std::vector<SimulatedHit> light;
+  std::ranges::copy_if(scout.simulated.hits, std::back_inserter(light), has_path);
+  return RunBins(light, brightness / scout.photons, run.used, {});
 }
 
 RunView view_run(const Model& model, const RunRequest& request, const RunData& run, double brightness,

@@ -18,6 +18,7 @@ using RequestOfRun = std::function<RunRequest(std::size_t run, double photons)>;
 
 struct FirstLook {
   std::vector<double> hits_per_photon;  // by run: simulated hits of used receivers for N = 1, above 0
+  std::vector<double> brightness;       // by run: N of the data, all flashes together, without dark noise
   std::uint64_t propagated = 0;
 };
 
@@ -58,6 +59,7 @@ struct Scout {
   double photons = 0;  // N
 };
 Scout scout_run(const Model& model, RunRequest request, double time_zero);
+// Where light is expected: dark noise and afterpulses are everywhere and tell nothing of the ice.
 // `brightness`: expected counts of the data, all flashes together, for a simulated hit of N = 1.
 RunBins bins_of(const Scout& scout, const RunData& run, double brightness);
 

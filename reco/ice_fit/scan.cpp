@@ -94,7 +94,7 @@ class Scan {
     scan_.photons += look.propagated;
     scan_.left_out = data_.left_out;
     for (std::size_t r = 0; r < data_.runs.size(); ++r) {
-      RunPlan plan = plan_run(r, look.hits_per_photon[r]);
+      RunPlan plan = plan_run(r, look);
       if (plan.bins.size() > 0) {
         scan_.bins += plan.bins.size();
         plans_.push_back(std::move(plan));
@@ -107,10 +107,10 @@ class Scan {
   }
 
   // Bins follow the light as late as it is in the data.
-  RunPlan plan_run(std::size_t r, double hits_per_photon) {
+  RunPlan plan_run(std::size_t r, const FirstLook& look) {
     const RunData& run = data_.runs[r];
-    const double photons = photons_wanted(run, hits_per_photon, options_.light),
-                 brightness = run.charge / hits_per_photon;
+    const double photons = photons_wanted(run, look.hits_per_photon[r], options_.light),
+                 brightness = look.brightness[r];
     Scout scout = scout_run(base_, request(r, bins_stream, photons, brightness), 0);
     scan_.photons += scout.simulated.propagated;
     double time_zero = 0, shift = 2 * settled_time;

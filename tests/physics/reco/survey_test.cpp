@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "reco/diagnose/suspects.h"
+#include "reco/ice_fit/ice_point.h"
 #include "reco/ice_fit/model_judge.h"
 
 namespace floe::test {
@@ -44,6 +45,55 @@ class OfOneFlasher : public ::testing::Test {
   FlasherData data_;
   FirstLook look_;
 };
+
+// In the middle of much dark noise the brightness is that of the light, and bins are where light is.
+TEST_F(OfOneFlasher, DarkNoiseIsNotTakenForLight) {
+  constexpr double readouts = 100, length = 1e4, rate = 600;  // [ns], [Hz]
+  RunRequest noisy = request(photons_, data_stream + 1);
+  noisy.noise = {0, length, readouts / photons_, rate};
+  Event event;
+  event.flasher = run_;
+  for (const SimulatedHit& hit : simulate_run(model_, noisy).hits)
+    event.hits.push_back(to_hit(hit, *model_.detector));
+  FlasherData data = flasher_data(*model_.detector, std::vector{event});
+  RunData& run = data.runs[0];
+  run.repeats = readouts, run.noise_rate = rate, run.first = 0, run.last = length;
+  const double light = data_.runs[0].charge, noise = run.charge - light;  // from the same photons
+  ASSERT_GT(noise, 0.2 * light);
+  const FirstLook look = look_first(
+      model_, [&](std::size_t, double photons) { return request(photons, data_stream); }, data);
+  EXPECT_NEAR(look.brightness[0] * look.hits_per_photon[0], light, 4 * std::sqrt(noise));
+
+  const RunRequest with_noise = request_of(run, settings_, photons_, data_stream + 3, photons_);
+  const RunRequest without = request(photons_, data_stream + 3);
+  const Scout scout = scout_run(model_, with_noise, 0), of_light = scout_run(model_, without, 0);
+  ASSERT_GT(scout.simulated.hits.size(), 1.2 * static_cast<double>(of_light.simulated.hits.size()));
+  EXPECT_EQ(bins_of(scout, run, photons_).receivers().size(),
+            bins_of(of_light, run, photons_).receivers().size());
+}
+
+// Pulses that come a microsecond late are those of the same light: counts and slopes are as before.
+TEST_F(OfOneFlasher, DelaysMoveSlopesWithTheirLight) {
+  const std::vector<IceParameter> parameters{effect_parameter("absorption-scale", model_)};
+  const IcePoint point(model_, parameters, {parameters[0].start}, run_.wavelength);
+  const RunRequest at_once = request(photons_, data_stream + 4);
+  RunRequest late = at_once;
+  late.delays = {{1, 1000, 1000.001}};
+  RunLight light[2];
+  for (const bool is_late : {false, true}) {
+    const RunRequest& asked = is_late ? late : at_once;
+    const SimulatedRun simulated = simulate_run(model_, asked);
+    const RunBins bins(simulated.hits, 1, data_.runs[0].used, {});
+    light[is_late] = point.light(asked, simulated, bins, 0).light;
+  }
+  for (std::size_t fold = 0; fold < 2; ++fold) {
+    const LightFold &before = light[0].folds[fold], &after = light[1].folds[fold];
+    ASSERT_EQ(before.counts.size(), after.counts.size());
+    // Times are rounded: a hit in a thousand may be in the next bin.
+    EXPECT_LT((before.counts - after.counts).lpNorm<1>(), 1e-3 * before.counts.sum());
+    EXPECT_LT((before.slopes - after.slopes).lpNorm<1>(), 1e-2 * before.slopes.lpNorm<1>());
+  }
+}
 
 class ASurvey : public OfOneFlasher {
  protected:

@@ -84,6 +84,23 @@ TEST(RunBins, NoBinIsWithoutSimulatedLight) {
   for (const int count : counts_of(bins, hits)) EXPECT_GT(count, 0);
 }
 
+// Bins end at 130 and 160; the first and the last are open.
+TEST(RunBins, PulsesAreSpreadOverTheirWidth) {
+  std::vector<SimulatedHit> hits;
+  add_hits(hits, 0, 90, 100, 1);
+  const RunBins bins(hits, 1, {1, 1}, {5, 30, 8});
+  ASSERT_EQ(bins.size(), 3);
+  Eigen::VectorXd counts = Eigen::VectorXd::Zero(3);
+  bins.add_spread(0, 140, 40, 4, counts);  // 120 to 160
+  EXPECT_NEAR((counts - Eigen::Vector3d(1, 3, 0)).norm(), 0, 1e-12);
+  bins.add_spread(0, 145, 60, 6, counts);  // 115 to 175
+  EXPECT_NEAR((counts - Eigen::Vector3d(2.5, 6, 1.5)).norm(), 0, 1e-12);
+  bins.add_spread(0, 200, 0, 1, counts);
+  bins.add_spread(0, -50, 10, 2, counts);
+  bins.add_spread(1, 140, 40, 4, counts);  // no receiver
+  EXPECT_NEAR((counts - Eigen::Vector3d(4.5, 6, 2.5)).norm(), 0, 1e-12);
+}
+
 TEST(RunBins, OfNoLightAreNone) {
   const RunBins bins({}, 1, {1, 1}, {});
   EXPECT_EQ(bins.size(), 0);
