@@ -75,7 +75,7 @@ TEST_F(RecordedFlashes, BirefringenceIsNamedWhereItIsMissing) {
   EXPECT_LT(test.p_value, 1e-4);
 }
 
-// Dark noise makes two fifths of the modules' pulses, and a tenth of their charge.
+// Dark noise, 6% of the charge, is expected where it is: most modules see nothing else.
 TEST_F(RecordedFlashes, AgreeWithTheTrueModel) {
   const std::vector<IceParameter> none;
   settings_.light.light = 4;
