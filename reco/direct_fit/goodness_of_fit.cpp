@@ -80,16 +80,15 @@ Evaluation evaluate_cascade(ExpectationModel& light, const EventData& data, cons
                             double photons, double oversize, int repeats, std::uint64_t stream,
                             double model_error) {
   Evaluation result;
-  std::vector<std::vector<BinOfData>> parts;
   for (int i = 0; i < repeats; ++i) {
     result.samples.push_back(
         light.sample({cascade, photons, oversize, stream + static_cast<std::uint64_t>(i)}));
-    parts.push_back(count_bins(data, result.samples.back(), cascade.time));
+    result.parts.push_back(count_bins(data, result.samples.back(), cascade.time));
   }
-  result.bins = parts.front();
-  for (std::size_t i = 1; i < parts.size(); ++i) add(result.bins, parts[i], 1);
+  result.bins = result.parts.front();
+  for (std::size_t i = 1; i < result.parts.size(); ++i) add(result.bins, result.parts[i], 1);
   result.neg_llh = neg_llh(result.bins, model_error);
-  for (const auto& part : parts) {
+  for (const auto& part : result.parts) {
     std::vector<BinOfData> others = result.bins;
     add(others, part, -1);
     result.leave_one_out.push_back(neg_llh(others, model_error));

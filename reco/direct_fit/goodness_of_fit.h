@@ -22,9 +22,10 @@ double neg_llh(std::span<const BinOfData> bins, double model_error);
 // A cascade measured with independent simulations of itself.
 struct Evaluation {
   std::vector<LightSample> samples;
-  std::vector<BinOfData> bins;        // of all simulations together
-  double neg_llh = 0;                 // of these
-  std::vector<double> leave_one_out;  // with all but one
+  std::vector<std::vector<BinOfData>> parts;  // of each simulation
+  std::vector<BinOfData> bins;                // of all simulations together
+  double neg_llh = 0;                         // of these
+  std::vector<double> leave_one_out;          // with all but one
 };
 // Error of a value from what it becomes without each of its parts: the jackknife.
 double jackknife_error(std::span<const double> leave_one_out);

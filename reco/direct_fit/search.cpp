@@ -8,6 +8,7 @@
 #include "reco/direct_fit/arrival_bins.h"
 #include "reco/direct_fit/calibration_stages.h"
 #include "reco/direct_fit/one_string.h"
+#include "reco/direct_fit/two_cascades.h"
 
 namespace floe {
 namespace {
@@ -277,36 +278,42 @@ Search::End Search::best_of(std::span<const Minimum> minima) {
     else if (same->unsolved && end.converged)
       *same = std::move(end);
   }
-  std::vector<Difference> worse{{0, 0}};  // than the first
-  for (std::size_t i = 1; i < ends.size(); ++i)
-    worse.push_back(how_much_worse(ends[i].light, ends.front().light));
-  const auto by_value = [](const Difference& a, const Difference& b) { return a.value < b.value; };
-  const auto best = std::min_element(worse.begin(), worse.end(), by_value);
-  const Difference least = *best;
-  const std::size_t place = static_cast<std::size_t>(best - worse.begin());
-  double nearest = std::numeric_limits<double>::infinity();
+  if (ends.size() < 2) return ends.front();
+  const auto [best, worse] = tell_apart(ends);
+  double nearest = competing;
   for (std::size_t i = 0; i < ends.size(); ++i) {
-    const double value = worse[i].value - least.value, error = std::hypot(worse[i].error, least.error);
-    if (i == place || value >= std::min(nearest, competing + competing_errors * error)) continue;
-    nearest = value;
-    result_.other_minimum = OtherMinimum{cascade_of(ends[i].light, options_.kind), value, error};
+    const double least = std::max(0.0, worse[i].value);
+    if (i == best || least - competing_errors * worse[i].error > nearest) continue;
+    nearest = least;
+    result_.other_minimum = OtherMinimum{cascade_of(ends[i].light, options_.kind), least, worse[i].error};
   }
-  return ends[place];
+  return ends[best];
 }
 
-// Modules of the wanted size decide where their noise lets them: minima that mirror each other about a string
-// differ by what wide modules blur. Else wide ones do, with so many more photons.
-Difference Search::how_much_worse(const LightCentre& one, const LightCentre& other) {
-  constexpr double clear = 2, well_known = 4;  // errors; units of -ln L
-  const auto compare = [&](double oversize, const PhotonNeed& need) {
-    const double photons = photons_for(cascade_of(other, options_.kind), oversize, need);
-    const Evaluation first = measure(one, oversize, photons), second = measure(other, oversize, photons);
-    ++contests_;
-    return difference(first, second);
+// Modules of the wanted size: minima that mirror each other about a string differ by what wide modules blur.
+// More photons where the first do not decide.
+Search::Ranking Search::tell_apart(std::span<const End> ends) {
+  constexpr PhotonNeed first_look{10, 2e6, 1.5e7}, second_look{40, 8e6, 4e7};
+  Ranking ranking = tell_apart(ends, first_look);
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    if (i != ranking.best && ranking.worse[i].value < competing) return tell_apart(ends, second_look);
+  return ranking;
+}
+
+Search::Ranking Search::tell_apart(std::span<const End> ends, const PhotonNeed& need) {
+  const double photons = photons_for(cascade_of(ends.front().light, options_.kind), options_.oversize, need);
+  std::vector<Evaluation> values;
+  for (const End& end : ends) values.push_back(measure(end.light, options_.oversize, photons));
+  ++contests_;
+  const auto worse = [&](std::size_t one, std::size_t other) {
+    return worse_by(values[one], values[other], options_.model_error, data_.charge_dispersion());
   };
-  const Difference narrow = compare(options_.oversize, {25, 4e6, 1.5e7});
-  if (std::abs(narrow.value) > clear * narrow.error || narrow.error < well_known) return narrow;
-  return compare(training_oversize(data_, other, options_.oversize), {20, 1e6, 2e7});
+  Ranking ranking;
+  for (std::size_t i = 1; i < ends.size(); ++i)
+    if (worse(i, ranking.best).value < 0) ranking.best = i;
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    ranking.worse.push_back(i == ranking.best ? Difference{} : worse(i, ranking.best));
+  return ranking;
 }
 
 }  // namespace floe

@@ -109,8 +109,13 @@ class Search {
   std::vector<Minimum> around_only_string(std::vector<Minimum> minima);
   End from_starts(std::span<const LightCentre> starts);
   End best_of(std::span<const Minimum> minima);
-  // In -ln L, from equal simulations of both.
-  Difference how_much_worse(const LightCentre& one, const LightCentre& other);
+  // By equal simulations of all ends, with the sums of two_cascades.h.
+  struct Ranking {
+    std::size_t best = 0;
+    std::vector<Difference> worse;  // than the best, in -ln L
+  };
+  Ranking tell_apart(std::span<const End> ends);
+  Ranking tell_apart(std::span<const End> ends, const PhotonNeed& need);
   Stage rough_stage(const LightCentre& light);
   void report(double within_round, const std::string& what);
 

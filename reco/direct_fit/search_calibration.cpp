@@ -10,14 +10,14 @@
 namespace floe {
 namespace {
 
-constexpr int most_calibrations = 6, most_rounds_without_score = 5;
+constexpr int most_calibrations = 8, most_rounds_without_score = 5;
 constexpr double acceptable_pull = 1.5;  // of the last step of all
 // New photons even where there are enough already, and what weights may lose (see InformationBound) before
 // they are taught with more photons, up to so many times the usual.
 constexpr double least_fresh_share = 0.2, acceptable_loss = 1.3, most_training = 6;
 constexpr double acceptable_dispersion = 1.8, least_reach = 0.3;
-constexpr double last_judging = 2.5;  // photons of the last calibration, times the usual
-constexpr double close_enough = 1.2;  // last steps, in steps of the narrow design
+constexpr double last_training = 2.5, last_judging = 2.5;  // photons of the last calibration, times the usual
+constexpr double close_enough = 1.2;                       // last steps, in steps of the narrow design
 // [photoelectrons] expected: hardly any module stays dark.
 constexpr double surely_seen = 4;
 
@@ -65,6 +65,7 @@ Search::End Search::finish(const RoundEnd& rough, std::span<const End> known) {
 // that the data do not make.
 Search::End Search::refined(const End& end, CalibrationNeed need) {
   End last = end;
+  need.training = std::max(need.training, last_training);
   need.judging = last_judging;
   calibrate(last, need);
   return last.unsolved || !(last.pull < acceptable_pull) ? end : last;
@@ -112,18 +113,19 @@ void Search::calibrate(End& end, CalibrationNeed& need) {
     end.covariance.setConstant(std::numeric_limits<double>::infinity());
     return;
   }
-  end.light = frame.at(solution.step);
+  const bool inside = solution.step.head<3>().norm() < close_enough * narrow.position_step &&
+                      solution.step.segment<2>(3).norm() < close_enough * narrow.direction_step;
+  const bool smooth = solution.dispersion < acceptable_dispersion || need.reach <= least_reach;
+  const bool enough_light = solution.weight_loss < acceptable_loss || need.training >= most_training;
+  const bool stays = !inside && !enough_light;  // weights that lose so much do not say where to
+  if (!stays) end.light = frame.at(solution.step);
   end.covariance = solution.covariance;
   const double scatter =
       data_.charge_dispersion() - 1 + options_.data_widened * std::max(0.0, solution.dispersion - 1);
   if (scatter > 0) end.covariance += scatter * solution.data_covariance;
   const Vector7 found = solution.covariance.diagonal().cwiseSqrt();
-  end.pull = solution.leaves ? std::numeric_limits<double>::infinity()
-                             : solution.step.cwiseAbs().cwiseQuotient(found).maxCoeff();
-  const bool inside = solution.step.head<3>().norm() < close_enough * narrow.position_step &&
-                      solution.step.segment<2>(3).norm() < close_enough * narrow.direction_step;
-  const bool smooth = solution.dispersion < acceptable_dispersion || need.reach <= least_reach;
-  const bool enough_light = solution.weight_loss < acceptable_loss || need.training >= most_training;
+  end.pull = solution.leaves || stays ? std::numeric_limits<double>::infinity()
+                                      : solution.step.cwiseAbs().cwiseQuotient(found).maxCoeff();
   end.converged = solution.converged && (inside || end.pull < 1) && enough_light && smooth;
   result_.rounds.push_back({cascade_of(end.light, options_.kind), folds[0].emulator.neg_llh(solution.step),
                             narrow.position_step, narrow.direction_step, narrow.oversize, end.pull});
@@ -131,11 +133,15 @@ void Search::calibrate(End& end, CalibrationNeed& need) {
     need.reach = std::max(least_reach, 0.6 * need.reach);
     return;
   }
+  // What weights lose falls with the photons that teach them.
+  if (!enough_light)
+    need.training = std::min(
+        most_training, need.training * std::max(1.5, (solution.weight_loss - 1) / (acceptable_loss - 1)));
+  if (stays) return;
   // The emulators' errors, which a search begins with, may be far too small.
   const PlaceErrors now = place_errors(solution.data_covariance);
   need.errors.position = std::clamp(now.position, 0.5 * need.errors.position, 1.5 * need.errors.position);
   need.errors.direction = std::clamp(now.direction, 0.5 * need.errors.direction, 1.5 * need.errors.direction);
-  if (!enough_light) need.training = std::min(most_training, 3 * need.training);
 }
 
 double Search::End::weight_loss() const {
