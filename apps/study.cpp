@@ -84,13 +84,13 @@ StudySettings settings_of(const StudyCommand& command, const std::optional<Respo
 }
 
 // All that rows depend on. (Hashes do not tell how modules accept light; what --with changes of that stands
-// beside them.)
+// beside them. The journal's number goes up when fits change: rows of two fits are no study.)
 Json heading_of(const StudyCommand& command, const StudySettings& settings,
                 const std::optional<ResponseSettings>& electronics) {
   Json oversize = Json::object();
   for (const StudyGroup& group : settings.groups)
     oversize[fmt::format("{:g}", group.energy)] = group.oversize;
-  Json heading = {{"journal", "floe study 1"},
+  Json heading = {{"journal", "floe study 2"},
                   {"version", FLOE_VERSION},
                   {"seed", settings.seed},
                   {"effort", settings.fit.effort},
