@@ -6,11 +6,10 @@
 
 namespace floe {
 
-void limit_brightness(const Simulator& simulator, double most, std::vector<PlannedEvent>& events) {
+void limit_brightness(double most, std::vector<PlannedEvent>& events) {
   for (PlannedEvent& event : events) {
     double photons = 0;
-    for (const PlannedSource& planned : event.sources)
-      photons += simulator.photons_to_propagate(*planned.source);
+    for (const PlannedSource& planned : event.sources) photons += planned.photons;
     if (photons <= most) continue;
     event.share = most / photons;
     if (!(event.share >= 1e-30))

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "apps/planned_light.h"
-#include "propagation/engine/simulator.h"
 
 namespace floe {
 
@@ -14,6 +13,6 @@ inline constexpr double most_photons_by_default = 1e9;
 // average over so many repetitions, fewer than one: a hit counts 1/share. Expected charges stay what they
 // are; they scatter more than those of all photons would. Says so on stderr. Throws UsageError when a hit
 // would count more than 1e30.
-void limit_brightness(const Simulator& simulator, double most, std::vector<PlannedEvent>& events);
+void limit_brightness(double most, std::vector<PlannedEvent>& events);
 
 }  // namespace floe

@@ -63,43 +63,65 @@ Cascade cascade_of(const Particle& particle) {
           particle.azimuth,  particle.energy, kind_of_f2k(particle.name)};
 }
 
-PlannedSource cascade_source(const Cascade& cascade, const Model& model, std::uint64_t seed,
+// What cannot be made says so now.
+PlannedSource planned_source(const Simulator& simulator, std::function<std::unique_ptr<Source>()> make,
+                             bool fixed_number = false) {
+  const double photons = simulator.photons_to_propagate(*make());
+  return {std::move(make), photons, fixed_number};
+}
+
+PlannedSource cascade_source(const Cascade& cascade, const Simulator& simulator, std::uint64_t seed,
                              std::uint64_t stream) {
   RandomStream random(seed, stream, yield_draw);
   const double fluctuation = draw_yield_fluctuation(cascade.kind, cascade.energy, random);
-  return {std::make_unique<CascadeSource>(cascade, model.acceptance.spectrum, fluctuation), false};
+  return planned_source(simulator, [cascade, fluctuation, &model = simulator.model()] {
+    return std::make_unique<CascadeSource>(cascade, model.acceptance.spectrum, fluctuation);
+  });
 }
 
-PlannedSource photon_source(const Particle& particle, const Model& model) {
-  return {std::make_unique<PointSource>(particle.position, particle.time, particle.energy,
-                                        model.acceptance.spectrum,
-                                        travel_direction(particle.zenith, particle.azimuth)),
-          true};
+PlannedSource photon_source(const Particle& particle, const Simulator& simulator) {
+  const auto make = [particle, &model = simulator.model()] {
+    return std::make_unique<PointSource>(particle.position, particle.time, particle.energy,
+                                         model.acceptance.spectrum,
+                                         travel_direction(particle.zenith, particle.azimuth));
+  };
+  return planned_source(simulator, make, true);
 }
 
-PlannedSource muon_source(const Particle& particle, const Model& model) {
+PlannedSource muon_source(const Particle& particle, const Simulator& simulator) {
   const MuonSegment muon{particle.position, particle.time,   particle.zenith,
                          particle.azimuth,  particle.length, particle.energy};
-  return {std::make_unique<MuonSource>(muon, model.acceptance.spectrum), false};
+  return planned_source(simulator, [muon, &model = simulator.model()] {
+    return std::make_unique<MuonSource>(muon, model.acceptance.spectrum);
+  });
 }
 
-PlannedSource source_of(const Particle& particle, const Model& model, std::uint64_t seed,
+PlannedSource source_of(const Particle& particle, const Simulator& simulator, std::uint64_t seed,
                         std::uint64_t stream) {
-  if (particle.name == "ph") return photon_source(particle, model);
-  if (particle.name.starts_with("amu")) return muon_source(particle, model);
-  return cascade_source(cascade_of(particle), model, seed, stream);
+  if (particle.name == "ph") return photon_source(particle, simulator);
+  if (particle.name.starts_with("amu")) return muon_source(particle, simulator);
+  return cascade_source(cascade_of(particle), simulator, seed, stream);
 }
 
-PlannedEvent plan_point(const PointRequest& request, const Model& model) {
+PlannedEvent plan_point(const PointRequest& request, const Simulator& simulator) {
   LaserSettings light = request.light;
   if (request.emitted)
-    light.photons = *request.emitted * accepted_share(light.wavelength, model.acceptance.spectrum);
+    light.photons =
+        *request.emitted * accepted_share(light.wavelength, simulator.model().acceptance.spectrum);
   PlannedEvent event{request.id, {}, {}};
-  event.sources.push_back({std::make_unique<LaserSource>(light), false});
+  event.sources.push_back(
+      planned_source(simulator, [light] { return std::make_unique<LaserSource>(light); }));
   return event;
 }
 
-PlannedEvent plan_flasher(const FlasherRequest& request, const Model& model) {
+PlannedSource flasher_source(const FlasherSettings& settings, ModuleId module, const WavelengthSpectrum& line,
+                             const Simulator& simulator) {
+  return planned_source(simulator, [settings, module, line, &model = simulator.model()] {
+    return std::make_unique<FlasherSource>(*model.detector, module, adjusted(settings, model.sources), line);
+  });
+}
+
+PlannedEvent plan_flasher(const FlasherRequest& request, const Simulator& simulator) {
   FlasherSettings settings;
   // N counts a whole line of light; without a wavelength only its middle is simulated.
   settings.photons = request.photons * (request.wavelength ? 1 : reference_led_share);
@@ -110,46 +132,45 @@ PlannedEvent plan_flasher(const FlasherRequest& request, const Model& model) {
   settings.beam = request.beam;
   settings.pulse = request.pulse;
   PlannedEvent event{fmt::format("flasher-{}-{}", request.module.string, request.module.dom), {}, {}};
-  event.sources.push_back({std::make_unique<FlasherSource>(
-                               *model.detector, request.module, adjusted(settings, model.sources),
-                               request.wavelength ? led_line(*request.wavelength) : reference_led_line()),
-                           false});
+  event.sources.push_back(
+      flasher_source(settings, request.module,
+                     request.wavelength ? led_line(*request.wavelength) : reference_led_line(), simulator));
   return event;
 }
 
-PlannedEvent plan_run(const RunToSimulate& planned, const std::string& id, const Model& model) {
+PlannedEvent plan_run(const RunToSimulate& planned, const std::string& id, const Simulator& simulator) {
   FlasherSettings settings = flasher_settings(planned.run);
   settings.photons *= planned.repeats * (planned.whole_line ? 1 : reference_led_share);
   settings.beam = planned.beam;
   settings.pulse = planned.pulse;
   PlannedEvent event{id, {}, {}, static_cast<double>(planned.repeats), planned.run};
-  event.sources.push_back({std::make_unique<FlasherSource>(
-                               *model.detector, planned.run.module, adjusted(settings, model.sources),
-                               planned.whole_line ? led_line(planned.run.wavelength) : reference_led_line()),
-                           false});
+  event.sources.push_back(flasher_source(
+      settings, planned.run.module,
+      planned.whole_line ? led_line(planned.run.wavelength) : reference_led_line(), simulator));
   return event;
 }
 
-std::vector<PlannedEvent> plan_runs(const std::vector<RunToSimulate>& runs, const Model& model) {
+std::vector<PlannedEvent> plan_runs(const std::vector<RunToSimulate>& runs, const Simulator& simulator) {
   FlasherRunNames names;
   std::vector<PlannedEvent> planned;
-  for (const RunToSimulate& run : runs) planned.push_back(plan_run(run, names.next(run.run.module), model));
+  for (const RunToSimulate& run : runs)
+    planned.push_back(plan_run(run, names.next(run.run.module), simulator));
   return planned;
 }
 
-PlannedEvent plan_cascade(const Cascade& cascade, const Model& model, std::uint64_t seed) {
+PlannedEvent plan_cascade(const Cascade& cascade, const Simulator& simulator, std::uint64_t seed) {
   PlannedEvent event{"cascade", {particle_of(cascade)}, {}};
-  event.sources.push_back(cascade_source(cascade, model, seed, 0));
+  event.sources.push_back(cascade_source(cascade, simulator, seed, 0));
   return event;
 }
 
-std::vector<PlannedEvent> plan_f2k(const std::string& file, const Model& model, std::uint64_t seed) {
+std::vector<PlannedEvent> plan_f2k(const std::string& file, const Simulator& simulator, std::uint64_t seed) {
   std::vector<PlannedEvent> planned;
   std::uint64_t stream = 0;
   for (Event& event : read_f2k(file)) {
     planned.push_back({event.id, std::move(event.truth), {}});
     for (const Particle& particle : planned.back().truth) {
-      planned.back().sources.push_back(source_of(particle, model, seed, stream));
+      planned.back().sources.push_back(source_of(particle, simulator, seed, stream));
       ++stream;
     }
   }
@@ -213,13 +234,14 @@ Json to_json(const SourceRequest& request) {
   return {{"f2k", request.f2k.value()}};
 }
 
-std::vector<PlannedEvent> plan_light(const SourceRequest& request, const Model& model, std::uint64_t seed) {
-  if (request.f2k) return plan_f2k(*request.f2k, model, seed);
-  if (request.flashers) return plan_runs(*request.flashers, model);
+std::vector<PlannedEvent> plan_light(const SourceRequest& request, const Simulator& simulator,
+                                     std::uint64_t seed) {
+  if (request.f2k) return plan_f2k(*request.f2k, simulator, seed);
+  if (request.flashers) return plan_runs(*request.flashers, simulator);
   std::vector<PlannedEvent> planned;
-  planned.push_back(request.flasher ? plan_flasher(*request.flasher, model)
-                    : request.point ? plan_point(*request.point, model)
-                                    : plan_cascade(request.cascade.value(), model, seed));
+  planned.push_back(request.flasher ? plan_flasher(*request.flasher, simulator)
+                    : request.point ? plan_point(*request.point, simulator)
+                                    : plan_cascade(request.cascade.value(), simulator, seed));
   return planned;
 }
 

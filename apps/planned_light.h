@@ -1,6 +1,7 @@
 // What `floe simulate` is asked for, turned into sources of light.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,7 +11,7 @@
 #include "apps/planned_output.h"
 #include "apps/point_options.h"
 #include "data/event.h"
-#include "propagation/model.h"
+#include "propagation/engine/simulator.h"
 #include "propagation/sources/cascade.h"
 #include "propagation/sources/source.h"
 
@@ -37,8 +38,10 @@ struct SourceRequest {
 };
 Json to_json(const SourceRequest& request);
 
+// Sources hold tables, and a file may have many thousand of them: each is made when its turn comes.
 struct PlannedSource {
-  std::unique_ptr<Source> source;
+  std::function<std::unique_ptr<Source>()> make;
+  double photons = 0;         // to propagate
   bool fixed_number = false;  // emits its number of photons exactly, instead of a Poisson draw
 };
 struct PlannedEvent {
@@ -51,8 +54,9 @@ struct PlannedEvent {
   double share = 1;  // of the sources' light that is simulated; `repeats` knows of it
 };
 
-// The events of the request, in order. `seed` draws how bright hadronic cascades are. Throws InputError:
-// unknown module, malformed f2k, a particle that cannot be simulated.
-std::vector<PlannedEvent> plan_light(const SourceRequest& request, const Model& model, std::uint64_t seed);
+// The events of the request, in order, for a simulator that outlives them. `seed` draws how bright hadronic
+// cascades are. Throws InputError: unknown module, malformed f2k, a particle that cannot be simulated.
+std::vector<PlannedEvent> plan_light(const SourceRequest& request, const Simulator& simulator,
+                                     std::uint64_t seed);
 
 }  // namespace floe

@@ -1,7 +1,6 @@
 // floe respond: what the modules' electronics make of detected photons.
 #include <fmt/format.h>
 
-#include <fstream>
 #include <memory>
 #include <optional>
 
@@ -16,7 +15,7 @@
 #include "apps/progress_bar.h"
 #include "data/base/atomic_file.h"
 #include "data/base/error.h"
-#include "data/base/hash.h"
+#include "data/base/file_hash.h"
 #include "data/base/words.h"
 #include "data/event_stream.h"
 #include "data/hdf5_reader.h"
@@ -75,17 +74,6 @@ Json to_json(const ResponseSettings& settings) {
       place = name_of(*std::get<CoincidenceMode*>(setting.value));
   }
   return json;
-}
-
-// Of a file's bytes, in portions.
-std::string hash_of_file(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string portion(1 << 20, '\0');
-  Hasher whole;
-  while (stream.read(portion.data(), static_cast<std::streamsize>(portion.size())), stream.gcount() > 0)
-    whole.add(
-        Hasher().add(std::string_view(portion).substr(0, static_cast<std::size_t>(stream.gcount()))).hex());
-  return whole.hex();
 }
 
 std::string name_of_module(ModuleId id) {

@@ -4,13 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
-#include <set>
 
 #include "apps/brightness_limit.h"
 #include "apps/commands.h"
 #include "apps/common_options.h"
 #include "apps/event_arguments.h"
+#include "apps/event_parts.h"
+#include "apps/event_simulation.h"
 #include "apps/model_json.h"
 #include "apps/model_warnings.h"
 #include "apps/option_values.h"
@@ -18,8 +20,9 @@
 #include "apps/planned_output.h"
 #include "apps/progress_bar.h"
 #include "data/base/error.h"
+#include "data/base/file_hash.h"
 #include "data/event_files.h"
-#include "propagation/engine/noise_hits.h"
+#include "data/event_stream.h"
 #include "propagation/engine/simulator.h"
 
 namespace floe {
@@ -41,15 +44,6 @@ struct SimulateOptions {
   Cascade cascade;
   std::string f2k, flashers;  // files
   std::string flasher_text, cascade_text, particle = "e-";
-};
-
-// What one event came to.
-struct EventResult {
-  std::string id;
-  SimulationSummary summary;
-  std::set<std::uint32_t> modules;  // that were hit
-  double share;                     // of its photons that was simulated
-  double repeats;
 };
 
 std::vector<double> parse_numbers(const std::string& option, const std::string& text, std::size_t count,
@@ -149,101 +143,80 @@ Provenance provenance_of(const SimulateOptions& options, const SourceRequest& li
   return provenance;
 }
 
-double photons_to_propagate(const Simulator& simulator, const std::vector<PlannedEvent>& events) {
-  double photons = 0;
-  for (const PlannedEvent& event : events)
-    for (const PlannedSource& planned : event.sources)
-      photons += event.share * simulator.photons_to_propagate(*planned.source);
-  return photons;
+// What a run depends on, besides what its provenance says.
+Json heading_of(const SimulateOptions& options, const Provenance& provenance) {
+  Json heading = {{"journal", "floe simulate 1"},
+                  {"version", FLOE_VERSION},
+                  {"configuration", Json::parse(provenance.configuration)},
+                  {"ice", provenance.ice_hash},
+                  {"detector", provenance.detector_hash}};
+  if (!options.f2k.empty()) heading["f2k"] = hash_of_file(options.f2k);
+  return heading;
 }
 
-void add(const SimulationSummary& part, SimulationSummary& sum) {
-  sum.propagated += part.propagated;
-  sum.hits += part.hits;
-  sum.weights += part.weights;
-  sum.seconds += part.seconds;
-}
+// The events of a file in consecutive parts: one each, or more when there are very many.
+struct Partition {
+  explicit Partition(std::size_t all) : events(all), in_part((all + most_parts - 1) / most_parts) {}
+  std::size_t parts() const { return (events + in_part - 1) / in_part; }
+  std::size_t begin(std::size_t part) const { return part * in_part; }
+  std::size_t end(std::size_t part) const { return std::min(events, begin(part + 1)); }
 
-// Runs all sources of all events, one after the other, each with random numbers of its own.
-class Run {
- public:
-  Run(const Simulator& simulator, const SimulateOptions& options, EventFileWriter& writer, Progress progress)
-      : simulator_(simulator), options_(options), writer_(writer), progress_(std::move(progress)) {}
+  static constexpr std::size_t most_parts = 1000;
+  std::size_t events, in_part;
+};
 
-  std::vector<EventResult> operator()(const std::vector<PlannedEvent>& events) {
-    const double all = photons_to_propagate(simulator_, events);
-    std::vector<EventResult> results;
-    for (const PlannedEvent& event : events) {
-      EventResult result{event.id, {}, {}, event.share, event.repeats};
-      writer_.begin_event(event.id, event.truth, event.repeats, event.flasher);
-      for (const PlannedSource& planned : event.sources) {
-        const double photons = event.share * simulator_.photons_to_propagate(*planned.source);
-        const double share = all > 0 ? photons / all : 0;
-        run_source(planned, event, share, result);
-        done_ += share;
-      }
-      add_noise(event, result);
-      results.push_back(std::move(result));
+// Simulates the parts that no earlier run has left.
+std::vector<EventResult> simulate_parts(EventSimulation& simulation, const Partition& partition,
+                                        const Provenance& provenance, EventParts& parts) {
+  std::vector<EventResult> results;
+  for (std::size_t p = 0; p < partition.parts(); ++p) {
+    if (parts.row(p)) {
+      for (const Json& row : parts.row(p)->at("events")) results.push_back(event_result_of(row));
+      for (std::size_t e = partition.begin(p); e < partition.end(p); ++e) simulation.pass_over(e);
+      continue;
     }
+    Json row = {{"events", Json::array()}};  // filled while the part is written
+    const auto write = [&](EventFileWriter& writer) {
+      for (std::size_t e = partition.begin(p); e < partition.end(p); ++e) {
+        results.push_back(simulation.simulate(e, writer));
+        row["events"].push_back(to_json(results.back()));
+      }
+    };
+    parts.add(p, provenance, write, row);
+  }
+  return results;
+}
+
+void copy_events(const std::filesystem::path& part, EventFileWriter& writer) {
+  const EventFileReader reader(part);
+  for (std::size_t e = 0; e < reader.size(); ++e) {
+    const Event event = reader.read(e);
+    writer.begin_event(event);
+    writer.append(event.hits);
+  }
+}
+
+// One event is written as its light comes. With many, none is lost when the run is killed.
+std::vector<EventResult> simulate_all(const SimulateOptions& options, EventSimulation& simulation,
+                                      std::size_t events, const Provenance& provenance,
+                                      const std::function<void(const std::vector<EventResult>&)>& report) {
+  if (events == 1) {
+    EventFileWriter writer(options.file, provenance);
+    const std::vector<EventResult> results{simulation.simulate(0, writer)};
+    report(results);
+    writer.close();
     return results;
   }
-
- private:
-  void run_source(const PlannedSource& planned, const PlannedEvent& event, double share,
-                  EventResult& result) {
-    SimulationOptions options;
-    options.seed = options_.settings.seed;
-    options.stream = stream_++;
-    options.threads = options_.settings.threads;
-    options.shard = options_.shard;
-    options.absorption_stretch = options_.stretch;
-    options.fixed_number = planned.fixed_number;
-    options.scale = event.share;
-    const auto sink = [&](std::span<const SimulatedHit> hits) { write(hits, event, result); };
-    Progress progress;
-    if (progress_)
-      progress = [&](double fraction, const std::string&) {
-        progress_(done_ + share * fraction, "simulating " + event.id);
-      };
-    const SimulationSummary summary = simulator_.run(*planned.source, options, sink, progress);
-    add(summary, result.summary);
-  }
-
-  // Of the modules, in readouts that begin with the light; parts of a run have it once.
-  void add_noise(const PlannedEvent& event, EventResult& result) {
-    if (options_.shard.index != 1) return;
-    NoiseWindow window;
-    window.readouts = event.repeats;
-    if (!event.truth.empty()) {
-      const double start = std::ranges::min(event.truth, {}, &Particle::time).time;
-      window.from += start, window.to += start;
-    }
-    std::optional<std::size_t> emitter;
-    if (!event.sources.empty()) emitter = event.sources.front().source->emitting_module();
-    const auto hits = noise_hits(simulator_.model(), window, emitter, options_.settings.seed, stream_);
-    write(hits, event, result);
-    const auto count = static_cast<double>(hits.size());
-    result.summary.hits += hits.size();
-    result.summary.weights += {hits.size(), count, count};
-  }
-
-  void write(std::span<const SimulatedHit> hits, const PlannedEvent& event, EventResult& result) {
-    std::vector<Hit> portion;
-    for (const SimulatedHit& hit : hits) {
-      portion.push_back(to_hit(hit, *simulator_.model().detector));
-      portion.back().charge = static_cast<float>(portion.back().charge / event.repeats);
-      result.modules.insert(hit.module);
-    }
-    writer_.append(portion);
-  }
-
-  const Simulator& simulator_;
-  const SimulateOptions& options_;
-  EventFileWriter& writer_;
-  Progress progress_;
-  std::uint64_t stream_ = 0;
-  double done_ = 0;
-};
+  const Partition partition(events);
+  EventParts parts(options.file, heading_of(options, provenance), partition.parts());
+  if (parts.found() > 0)
+    fmt::print(stderr, "floe: going on after {} of {} parts, found in {}.parts\n", parts.found(),
+               partition.parts(), options.file);
+  const std::vector<EventResult> results = simulate_parts(simulation, partition, provenance, parts);
+  report(results);
+  parts.finish(provenance, copy_events);
+  return results;
+}
 
 SimulationSummary total(const std::vector<EventResult>& results) {
   SimulationSummary sum;
@@ -277,12 +250,9 @@ Json results_json(const std::vector<EventResult>& results, const SimulateOptions
   put_weights(sum.weights, json);
   Json& events = json["events"] = Json::array();
   for (const EventResult& result : results) {
-    events.push_back({{"event", result.id},
-                      {"photons_propagated", result.summary.propagated},
-                      {"hits", result.summary.hits},
-                      {"modules_hit", result.modules.size()},
-                      {"share_simulated", result.share},
-                      {"repeats", result.repeats}});
+    events.push_back(to_json(result));
+    events.back().erase("seconds");
+    events.back().erase("weights");
     put_weights(result.summary.weights, events.back());
   }
   return json;
@@ -304,7 +274,7 @@ std::string weight_words(const WeightSums& weights) {
 
 void print_results(const std::vector<EventResult>& results, const SimulateOptions& options) {
   for (const EventResult& result : results)
-    fmt::print("event {}: {} hits in {} modules{}\n", result.id, result.summary.hits, result.modules.size(),
+    fmt::print("event {}: {} hits in {} modules{}\n", result.id, result.summary.hits, result.modules,
                options.stretch > 1 ? ", " + weight_words(result.summary.weights) : "");
   const SimulationSummary sum = total(results);
   fmt::print("{}: {} photons propagated, {} hits, {:.2f} s, {:.3g} photons/s\n", options.file, sum.propagated,
@@ -313,22 +283,29 @@ void print_results(const std::vector<EventResult>& results, const SimulateOption
 
 void run_simulate(const SimulateOptions& options, const std::string& command_line) {
   const SourceRequest light = light_request(options);
-  const std::string file = require_event_file_name(options.file);
+  require_event_file_name(options.file);
   PlannedOutput json(options.output.json);
   const Model model = load_model(options.model);
-  auto events = plan_light(light, model, options.settings.seed);
-  const std::vector<std::string> warnings = warn_of_model(model, options.settings.oversize);
   const Simulator simulator(model, options.settings.oversize);
-  limit_brightness(simulator, options.most_photons, events);
+  auto events = plan_light(light, simulator, options.settings.seed);
+  const std::vector<std::string> warnings = warn_of_model(model, options.settings.oversize);
+  limit_brightness(options.most_photons, events);
 
-  EventFileWriter writer(file, provenance_of(options, light, model, command_line));
+  SimulationOptions usual;
+  usual.seed = options.settings.seed;
+  usual.threads = options.settings.threads;
+  usual.shard = options.shard;
+  usual.absorption_stretch = options.stretch;
   std::vector<EventResult> results;
   {
     ProgressBar bar(options.output.quiet);
-    results = Run(simulator, options, writer, bar.callback())(events);
+    EventSimulation simulation(simulator, events, usual, bar.callback());
+    results =
+        simulate_all(options, simulation, events.size(), provenance_of(options, light, model, command_line),
+                     [&](const std::vector<EventResult>& all) {
+                       json.write(json_text(results_json(all, options, model, warnings)));
+                     });
   }
-  json.write(json_text(results_json(results, options, model, warnings)));
-  writer.close();
   json.commit();
   warn_of_darkness(results);
   if (!options.output.quiet) print_results(results, options);
@@ -432,7 +409,9 @@ void add_simulate(CLI::App& floe, const std::string& command_line) {
       "  floe simulate --flasher 63,20 --photons 1e6 --weighted=6 -o far.h5\n"
       "  floe simulate --point 20,-40,-300 --photons 1e6 -o point.h5\n"
       "  floe simulate --standard-candle 20,-40,-300 --emitted 1e9 -o candle.h5\n"
-      "  floe simulate --f2k events.f2k --seed 2 --json summary.json -o events.h5");
+      "  floe simulate --f2k events.f2k --seed 2 --json summary.json -o events.h5\n"
+      "Of many events each is kept in OUTPUT.parts as soon as it is done, and the same command goes on\n"
+      "where a stopped one was.");
   app.callback([options, command_line, &app] {
     expect_owners(app);
     run_simulate(*options, command_line);

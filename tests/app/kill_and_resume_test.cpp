@@ -14,6 +14,7 @@
 #include <sstream>
 #include <thread>
 
+#include "data/event_files.h"
 #include "tests/app/floe_runner.h"
 #include "tests/app/small_detector.h"
 #include "tests/unit/data/temporary_folder.h"
@@ -177,6 +178,44 @@ TEST_F(KilledRun, OfStudySaysWhatAnUndisturbedOneSays) {
   };
   EXPECT_EQ(rows_in("killed.json.rows"), 3u);
   EXPECT_EQ(rows("killed.json.rows"), rows("whole.json.rows"));
+}
+
+TEST_F(KilledRun, OfSimulateLosesAndRepeatsNoEvent) {
+  constexpr std::size_t events = 30;
+  write_small_detector(file("geo"), 40);
+  std::ostringstream particles;
+  for (std::size_t i = 0; i < events; ++i)
+    particles << "EM " << i + 1 << " 1 1970 0 0 0\nTR 1 0 e- 3 2 -303 70 " << 7 * i << " 0 300 0\n";
+  write_bytes(file("run.f2k"), particles.str());
+  const auto command = [](const std::string& name) {
+    return "simulate --f2k run.f2k --detector geo --oversize 4 --threads 1 --quiet -o " + name +
+           ".h5 --json " + name;
+  };
+  const auto start = std::chrono::steady_clock::now();
+  ASSERT_EQ(floe(command("whole.json")).code, 0);
+  const Seconds duration = std::chrono::steady_clock::now() - start;
+  // Far from the end, so that there is something to go on with.
+  for (int i = 0; i < 2; ++i) EXPECT_TRUE(kill_floe(folder_.path(), command("killed.json"), 0.3 * duration));
+  const Outcome outcome = floe(command("killed.json"));
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("going on after "), std::string::npos) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(file("killed.json.h5.parts")));
+
+  EXPECT_EQ(json_in("killed.json")["events"], json_in("whole.json")["events"]);
+  const EventFile killed = read_event_file(file("killed.json.h5")),
+                  whole = read_event_file(file("whole.json.h5"));
+  EXPECT_EQ(killed.provenance->configuration, whole.provenance->configuration);
+  ASSERT_EQ(killed.events.size(), events);
+  for (std::size_t e = 0; e < events; ++e) {
+    const Event &a = killed.events[e], &b = whole.events[e];
+    EXPECT_EQ(a.id, b.id);
+    EXPECT_EQ(a.truth.size(), 1u);
+    ASSERT_EQ(a.hits.size(), b.hits.size());
+    for (std::size_t i = 0; i < a.hits.size(); ++i) {
+      EXPECT_EQ(a.hits[i].module, b.hits[i].module);
+      EXPECT_EQ(a.hits[i].time, b.hits[i].time);
+    }
+  }
 }
 
 }  // namespace
