@@ -8,8 +8,7 @@ namespace floe {
 
 void limit_brightness(double most, std::vector<PlannedEvent>& events) {
   for (PlannedEvent& event : events) {
-    double photons = 0;
-    for (const PlannedSource& planned : event.sources) photons += planned.photons;
+    const double photons = event.photons();
     if (photons <= most) continue;
     event.share = most / photons;
     if (!(event.share >= 1e-30))

@@ -13,10 +13,10 @@
 
 namespace floe {
 
-// Each event is kept in a file of its own in the folder FILE.parts, with a row in its journal, until all are
-// there; then they are written to FILE one after the other, and the folder goes. Memory does not grow with
-// their number. One thread at a time may use HDF5: whoever reads other event files meanwhile does it under
-// lock().
+// Each event, or a few where there are very many, is kept in a file of its own in the folder FILE.parts, with
+// a row in its journal, until all are there; then they are written to FILE one after the other, and the
+// folder goes. Memory does not grow with their number. One thread at a time may use HDF5: whoever reads other
+// event files meanwhile does it under lock().
 class EventParts {
  public:
   // `heading` says what the run is (see RowJournal): parts of another are thrown away. Throws OutputError.

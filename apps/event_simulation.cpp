@@ -7,16 +7,23 @@
 
 namespace floe {
 
+void put_weights(const WeightSums& weights, Json& json) {
+  json["weight_sum"] = weights.sum;
+  json["squared_weight_sum"] = weights.squares;
+  json["effective_hits"] = weights.effective_hits();
+}
+
 Json to_json(const EventResult& result) {
   const SimulationSummary& summary = result.summary;
-  return {{"event", result.id},
-          {"photons_propagated", summary.propagated},
-          {"hits", summary.hits},
-          {"modules_hit", result.modules},
-          {"share_simulated", result.share},
-          {"repeats", result.repeats},
-          {"seconds", summary.seconds},
-          {"weights", {summary.weights.hits, summary.weights.sum, summary.weights.squares}}};
+  Json json = {{"event", result.id},
+               {"photons_propagated", summary.propagated},
+               {"hits", summary.hits},
+               {"modules_hit", result.modules},
+               {"share_simulated", result.share},
+               {"repeats", result.repeats}};
+  put_weights(summary.weights, json);
+  json["seconds"] = summary.seconds;
+  return json;
 }
 
 EventResult event_result_of(const Json& json) {
@@ -26,8 +33,7 @@ EventResult event_result_of(const Json& json) {
   json.at("photons_propagated").get_to(summary.propagated);
   json.at("hits").get_to(summary.hits);
   json.at("seconds").get_to(summary.seconds);
-  const Json& weights = json.at("weights");
-  summary.weights = {weights.at(0), weights.at(1), weights.at(2)};
+  summary.weights = {summary.hits, json.at("weight_sum"), json.at("squared_weight_sum")};
   return result;
 }
 
@@ -45,18 +51,16 @@ EventSimulation::EventSimulation(const Simulator& simulator, const std::vector<P
   for (const PlannedEvent& event : events) {
     first_streams_.push_back(stream);
     stream += event.sources.size();
-    for (const PlannedSource& planned : event.sources) photons_ += event.share * planned.photons;
+    photons_ += event.share * event.photons();
   }
 }
 
-double EventSimulation::share_of(std::size_t event) const {
-  double photons = 0;
-  for (const PlannedSource& planned : events_[event].sources) photons += planned.photons;
-  return photons_ > 0 ? events_[event].share * photons / photons_ : 0;
+double EventSimulation::share_of(double photons) const {
+  return photons_ > 0 ? photons / photons_ : 0;
 }
 
 void EventSimulation::pass_over(std::size_t event) {
-  done_ += share_of(event);
+  done_ += share_of(events_[event].share * events_[event].photons());
 }
 
 EventResult EventSimulation::simulate(std::size_t number, EventFileWriter& writer) {
@@ -72,7 +76,7 @@ EventResult EventSimulation::simulate(std::size_t number, EventFileWriter& write
     const std::unique_ptr<Source> source = planned.make();
     if (!emitter) emitter = source->emitting_module();
     options.fixed_number = planned.fixed_number;
-    const double share = photons_ > 0 ? event.share * planned.photons / photons_ : 0;
+    const double share = share_of(event.share * planned.photons);
     simulate_source(*source, options, share, writer, result);
     done_ += share;
     ++options.stream;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,8 @@ struct EventResult {
 };
 Json to_json(const EventResult& result);
 EventResult event_result_of(const Json& json);  // without what no report names: scatters and queries
+// Three numbers, each the number of hits when they have no weights.
+void put_weights(const WeightSums& weights, Json& json);
 
 void add(const SimulationSummary& part, SimulationSummary& sum);
 
@@ -39,7 +43,7 @@ class EventSimulation {
   void pass_over(std::size_t event);
 
  private:
-  double share_of(std::size_t event) const;  // of all photons
+  double share_of(double photons) const;  // among all events'
   void simulate_source(const Source& source, const SimulationOptions& options, double share,
                        EventFileWriter& writer, EventResult& result);
   void add_noise(const PlannedEvent& event, std::optional<std::size_t> emitter, std::uint64_t stream,

@@ -226,6 +226,12 @@ Json cascade_json(const Cascade& cascade) {
 
 }  // namespace
 
+double PlannedEvent::photons() const {
+  double sum = 0;
+  for (const PlannedSource& planned : sources) sum += planned.photons;
+  return sum;
+}
+
 Json to_json(const SourceRequest& request) {
   if (request.flasher) return {{"flasher", flasher_json(*request.flasher)}};
   if (request.flashers) return {{"flashers", runs_json(*request.flashers)}};

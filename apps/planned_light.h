@@ -52,6 +52,8 @@ struct PlannedEvent {
   double repeats = 1;
   std::optional<FlasherRun> flasher = {};
   double share = 1;  // of the sources' light that is simulated; `repeats` knows of it
+
+  double photons() const;  // of all sources, before any share
 };
 
 // The events of the request, in order, for a simulator that outlives them. `seed` draws how bright hadronic

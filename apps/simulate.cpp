@@ -228,13 +228,6 @@ double photons_per_second(const SimulationSummary& summary) {
   return summary.seconds > 0 ? static_cast<double>(summary.propagated) / summary.seconds : 0;
 }
 
-// The three are the number of hits without weights.
-void put_weights(const WeightSums& weights, Json& json) {
-  json["weight_sum"] = weights.sum;
-  json["squared_weight_sum"] = weights.squares;
-  json["effective_hits"] = weights.effective_hits();
-}
-
 Json results_json(const std::vector<EventResult>& results, const SimulateOptions& options, const Model& model,
                   const std::vector<std::string>& warnings) {
   const SimulationSummary sum = total(results);
@@ -252,8 +245,6 @@ Json results_json(const std::vector<EventResult>& results, const SimulateOptions
   for (const EventResult& result : results) {
     events.push_back(to_json(result));
     events.back().erase("seconds");
-    events.back().erase("weights");
-    put_weights(result.summary.weights, events.back());
   }
   return json;
 }

@@ -280,12 +280,12 @@ Search::End Search::best_of(std::span<const Minimum> minima) {
   }
   if (ends.size() < 2) return ends.front();
   const auto [best, worse] = tell_apart(ends);
-  double nearest = competing;
+  double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < ends.size(); ++i) {
-    const double least = std::max(0.0, worse[i].value);
-    if (i == best || least - competing_errors * worse[i].error > nearest) continue;
-    nearest = least;
-    result_.other_minimum = OtherMinimum{cascade_of(ends[i].light, options_.kind), least, worse[i].error};
+    const double value = std::max(0.0, worse[i].value), error = worse[i].error;
+    if (i == best || value >= std::min(nearest, competing + competing_errors * error)) continue;
+    nearest = value;
+    result_.other_minimum = OtherMinimum{cascade_of(ends[i].light, options_.kind), value, error};
   }
   return ends[best];
 }

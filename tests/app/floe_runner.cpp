@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdlib>
 
@@ -19,6 +20,19 @@ Outcome run_floe(const fs::path& folder, const std::string& arguments) {
   const int status = std::system(command.c_str());
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return {code, bytes_of(out), bytes_of(err)};
+}
+
+pid_t start_floe(const fs::path& folder, const std::string& arguments) {
+  // With exec the shell becomes floe: signals and measurements are of floe itself.
+  const std::string command = "cd '" + folder.string() +
+                              "' && exec '" FLOE_PROGRAM "' >/dev/null 2>/dev/null " + arguments +
+                              " </dev/null";
+  const pid_t process = ::fork();
+  if (process == 0) {
+    ::execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
+    ::_exit(127);
+  }
+  return process;
 }
 
 std::set<std::string> files_in(const fs::path& folder) {

@@ -1,6 +1,8 @@
 // Runs the floe program as a shell would, in a folder of the test's own.
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
 #include <set>
 #include <string>
@@ -14,6 +16,10 @@ struct Outcome {
 
 // Runs "floe ARGUMENTS" in `folder`; the arguments are read by the shell.
 Outcome run_floe(const std::filesystem::path& folder, const std::string& arguments);
+
+// Starts "floe ARGUMENTS" in `folder` and does not wait for it: for tests that kill or measure it. What it
+// prints goes nowhere unless the arguments say where.
+pid_t start_floe(const std::filesystem::path& folder, const std::string& arguments);
 
 // Names of everything in a folder, with what is in folders below it.
 std::set<std::string> files_in(const std::filesystem::path& folder);

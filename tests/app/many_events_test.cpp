@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <sstream>
 
@@ -15,13 +14,7 @@ namespace {
 
 // Largest resident memory [MB] of floe with these arguments.
 double memory_of(const std::filesystem::path& folder, const std::string& arguments) {
-  const std::string command =
-      "cd '" + folder.string() + "' && exec '" FLOE_PROGRAM "' " + arguments + " 2>/dev/null";
-  const pid_t process = ::fork();
-  if (process == 0) {
-    ::execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
-    ::_exit(127);
-  }
+  const pid_t process = start_floe(folder, arguments);
   int status = 0;
   rusage usage{};
   ::wait4(process, &status, 0, &usage);

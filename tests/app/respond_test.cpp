@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <fstream>
@@ -13,6 +12,7 @@
 #include <thread>
 
 #include "tests/app/floe_runner.h"
+#include "tests/app/same_events.h"
 #include "tests/app/small_detector.h"
 #include "tests/unit/data/temporary_folder.h"
 
@@ -41,29 +41,6 @@ std::map<ModuleId, double> charges_of(const Event& event) {
   std::map<ModuleId, double> charges;
   for (const Hit& hit : event.hits) charges[hit.module] += hit.charge;
   return charges;
-}
-
-// Bytes would not do: HDF5 writes the time into the root group.
-void expect_same_events(const std::filesystem::path& one, const std::filesystem::path& other) {
-  const EventFileReader a(one), b(other);
-  EXPECT_EQ(a.provenance().configuration, b.provenance().configuration);
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t e = 0; e < a.size(); ++e) {
-    SCOPED_TRACE(a.id(e));
-    EXPECT_EQ(a.id(e), b.id(e));
-    const Event left = a.read(e), right = b.read(e);
-    ASSERT_EQ(left.hits.size(), right.hits.size());
-    for (std::size_t i = 0; i < left.hits.size(); ++i) {
-      EXPECT_EQ(left.hits[i].module, right.hits[i].module);
-      EXPECT_EQ(left.hits[i].time, right.hits[i].time);
-      EXPECT_EQ(left.hits[i].charge, right.hits[i].charge);
-    }
-    EXPECT_EQ(left.truth.size(), right.truth.size());
-    EXPECT_EQ(left.readout->unusable.size(), right.readout->unusable.size());
-    const auto traces = a.waveforms(e), others = b.waveforms(e);
-    ASSERT_EQ(traces.size(), others.size());
-    for (std::size_t i = 0; i < traces.size(); ++i) EXPECT_TRUE(traces[i].counts == others[i].counts);
-  }
 }
 
 class Respond : public testing::Test {
@@ -189,13 +166,7 @@ TEST_F(Respond, KilledAgainAndAgainItSaysWhatAnUndisturbedRunSays) {
   int kills = 0;
   std::string said;
   for (int i = 1; i <= 6 && !std::filesystem::exists(file("pulses.h5")); ++i) {
-    const std::string line =
-        "cd '" + folder_.path().string() + "' && exec '" FLOE_PROGRAM "' " + command + " 2>said";
-    const pid_t process = ::fork();
-    if (process == 0) {
-      ::execl("/bin/sh", "sh", "-c", line.c_str(), static_cast<char*>(nullptr));
-      ::_exit(127);
-    }
+    const pid_t process = start_floe(folder_.path(), command + " 2>said");
     std::this_thread::sleep_for(duration * (i + 1) / 9);
     ::kill(process, SIGKILL);
     int status = 0;
