@@ -1,6 +1,7 @@
 // floe diagnose: what is a model of the ice missing?
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 #include <system_error>
 
@@ -80,6 +81,15 @@ Json step_json(const DiagnosisStep& step) {
   return json;
 }
 
+// No light would separate: null.
+Json separation_json(const Separation& separation) {
+  return {{"effect", separation.effect},
+          {"other", separation.other},
+          {"light", std::isfinite(separation.light) ? Json(separation.light) : Json()},
+          {"run", separation.run},
+          {"sentence", separation.sentence}};
+}
+
 Json diagnosis_json(const Diagnosis& diagnosis, const DiagnoseCommand& command, const Model& base) {
   Json json = {{"command", command.command},
                {"version", FLOE_VERSION},
@@ -92,6 +102,7 @@ Json diagnosis_json(const Diagnosis& diagnosis, const DiagnoseCommand& command, 
                {"remarks", diagnosis.remarks},
                {"verdict", diagnosis.verdict},
                {"groups", Json::object()},
+               {"separations", Json::array()},
                {"where", Json::array()},
                {"effects", Json::array()},
                {"p_value", diagnosis.p_value},
@@ -106,6 +117,8 @@ Json diagnosis_json(const Diagnosis& diagnosis, const DiagnoseCommand& command, 
   for (const NamedEffect& effect : diagnosis.effects) {
     json["groups"][effect.suspect.effect] = effect.group;
     json["effects"].push_back(effect_json(effect));
+    for (const Separation& separation : effect.separations)
+      json["separations"].push_back(separation_json(separation));
   }
   for (const Region& region : diagnosis.steps.front().where.regions)
     json["where"].push_back(region_json(region));
@@ -131,6 +144,8 @@ std::string summary(const Diagnosis& diagnosis, const DiagnoseCommand& command) 
                  effect.parameters[i].unit});
   }
   if (!diagnosis.effects.empty()) text += table.str();
+  for (const NamedEffect& effect : diagnosis.effects)
+    for (const Separation& separation : effect.separations) text += separation.sentence + "\n";
   for (const std::string& remark : diagnosis.remarks) text += remark + "\n";
   return text + fmt::format("Gap in held-out runs: {:.1f} before, {:.1f} after ({:.0f} s).\n",
                             diagnosis.gap_before, diagnosis.gap_after, diagnosis.seconds);

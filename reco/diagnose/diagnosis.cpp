@@ -105,12 +105,33 @@ class Diagnoser {
     DiagnosisStep now;
     goodness(survey, now);
     const std::vector<Suspect> suspects = suspects_of(survey, plan);
-    now.scores = ScoreTester(survey, suspects, plan.parameters, options_.draws, options_.seed)
-                     .test(measured_counts(survey), options_.floor);
+    const ScoreTester tester(survey, suspects, plan.parameters, options_.draws, options_.seed);
+    now.scores = tester.test(measured_counts(survey), options_.floor);
     now.where = where_is_the_gap(model, survey, options_.draws, options_.seed);
+    find_separations(model, survey, tester, now.scores);
     result_.steps.push_back(std::move(now));
     const DiagnosisStep& last = result_.steps.back();
     return last.scores.p_value < options_.alpha / 2 || last.p_of_fit < options_.alpha / 2;
+  }
+
+  // Of all that may become a group.
+  void find_separations(const Model& model, const Survey& survey, const ScoreTester& tester,
+                        const ScoreTest& scores) {
+    separations_.clear();
+    std::vector<const Score*> rivals;
+    for (const EffectScore& effect : scores.effects)
+      if (is_inseparable(effect, scores.effects.front()) || leads(effect, scores))
+        rivals.push_back(&effect.best);
+    for (const Score* one : rivals)
+      for (const Score* other : rivals)
+        if (one != other)
+          separations_.push_back(separation(model, survey, tester.difference(*one, other->suspect.effect),
+                                            one->suspect.effect, other->suspect.effect));
+  }
+  static bool leads(const EffectScore& effect, const ScoreTest& scores) {
+    constexpr double least_gain = 5;
+    return effect.best.gain >= leading_share * scores.effects.front().best.gain &&
+           effect.best.gain > least_gain;
   }
 
   void goodness(const Survey& survey, DiagnosisStep& now) const {
@@ -169,9 +190,8 @@ class Diagnoser {
     const double from = begin(step), length = begin(step + 1) - from;
     for (const EffectScore& score : now.scores.effects) {
       const Score& suspect = score.best;
-      const bool leads =
-          suspect.gain >= leading_share * now.scores.effects.front().best.gain && suspect.gain > 5;
-      if (!leads || candidates.size() == most_trials || is_in_the_model(suspect.suspect)) continue;
+      if (!leads(score, now.scores) || candidates.size() == most_trials || is_in_the_model(suspect.suspect))
+        continue;
       const double done = 0.4 + 0.4 * static_cast<double>(candidates.size()) / most_trials;
       stage(from + length * done, from + length * (done + 0.13), "fitting " + text_of(suspect.suspect));
       try {
@@ -223,6 +243,9 @@ class Diagnoser {
     named.group = {trial.suspect.effect};
     for (const EffectScore& other : now.scores.effects)
       if (cannot_be_told(other, now)) named.group.push_back(other.best.suspect.effect);
+    for (const Separation& separation : separations_)
+      if (separation.effect == named.group.front() && contains(named.group, separation.other))
+        named.separations.push_back(separation);
     named.significance = std::sqrt(trial.chi_square);
     spans_.push_back({parameters_.size(), trial.parameters.size()});
     result_.effects.push_back(std::move(named));
@@ -409,6 +432,10 @@ class Diagnoser {
     return with_parameters(base_, blind.parameters, blind.numbers);
   }
 
+  static bool contains(const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  }
+
   const Model& base_;
   FlasherData data_;
   const DiagnosisOptions& options_;
@@ -418,7 +445,8 @@ class Diagnoser {
   // Of all effects that were added, fitted together.
   std::vector<IceParameter> parameters_;
   std::vector<double> numbers_;
-  std::vector<Span> spans_;  // by effect
+  std::vector<Span> spans_;              // by effect
+  std::vector<Separation> separations_;  // of the last look's leading effects, each from each other
   double from_ = 0, to_ = 1;
   std::string text_;
   Diagnosis result_;

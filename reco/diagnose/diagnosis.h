@@ -11,6 +11,7 @@
 #include "propagation/model.h"
 #include "reco/diagnose/contest.h"
 #include "reco/diagnose/score_test.h"
+#include "reco/diagnose/separation.h"
 #include "reco/diagnose/where.h"
 #include "reco/ice_fit/ice_fit.h"
 #include "reco/ice_fit/run_data.h"
@@ -47,8 +48,9 @@ struct NamedEffect {
     double value = 0, error = 0;
   };
   std::optional<Mean> mean;
-  double significance = 0;         // standard deviations
-  std::vector<std::string> group;  // effects that the data cannot tell from it, itself first
+  double significance = 0;                   // standard deviations
+  std::vector<std::string> group;            // effects that the data cannot tell from it, itself first
+  std::vector<Separation> separations = {};  // what would tell it from each of the others
 };
 
 struct RunGap {

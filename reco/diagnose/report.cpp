@@ -232,6 +232,9 @@ std::string report_html(const Diagnosis& diagnosis, const DiagnosisOptions& opti
         text += fmt::format("<p>{}</p>\n", markup_escaped(regions[i].sentence));
   text += pictures(diagnosis);
   if (!diagnosis.effects.empty()) text += "<h2>Added to the model</h2>\n" + effects_table(diagnosis);
+  for (const NamedEffect& effect : diagnosis.effects)
+    for (const Separation& separation : effect.separations)
+      text += "<p>" + markup_escaped(separation.sentence) + "</p>\n";
   for (const std::string& remark : diagnosis.remarks) text += "<p>" + markup_escaped(remark) + ".</p>\n";
   text +=
       "<h2>Gap before and after</h2>\n<p>Deviance of each run above what it would be on average if the "

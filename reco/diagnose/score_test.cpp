@@ -106,14 +106,28 @@ std::vector<TestedSuspect> prepare(const Survey& survey, const std::vector<Suspe
 // Of slopes that are mostly noise, nobody knows what they are like.
 constexpr double least_known = 0.25;
 
-// Correlation of the change of light that `a` makes with the most alike that `b` can make.
-double likeness(const Score& a, const TestedSuspect& of_a, const TestedSuspect& b,
-                const MatrixXd& information) {
-  const MatrixXd cross = combined(*b.suspect, *of_a.suspect, information);
-  const VectorXd along = cross * a.amplitudes;
+// Of the change of light that a suspect makes, the most alike that another can make.
+struct Imitation {
+  double likeness = 0;  // correlation
+  VectorXd amplitudes;
+};
+
+Imitation imitation(const Score& a, const TestedSuspect& of_a, const TestedSuspect& b,
+                    const MatrixXd& information) {
+  const VectorXd along = combined(*b.suspect, *of_a.suspect, information) * a.amplitudes;
   const double own = a.amplitudes.dot(of_a.information * a.amplitudes);
-  if (!(own > 0) || b.known_share() < least_known) return 0;
-  return std::clamp(std::sqrt(std::max(0.0, along.dot(b.inverse_information * along)) / own), 0.0, 1.0);
+  if (!(own > 0) || b.known_share() < least_known) return {0, VectorXd::Zero(along.size())};
+  const VectorXd amplitudes = b.inverse_information * along;
+  return {std::clamp(std::sqrt(std::max(0.0, along.dot(amplitudes)) / own), 0.0, 1.0), amplitudes};
+}
+
+// By column of a survey with so many.
+VectorXd spread_over_columns(const Suspect& suspect, const VectorXd& amplitudes, Eigen::Index columns) {
+  VectorXd spread = VectorXd::Zero(columns);
+  for (Eigen::Index i = 0; i < amplitudes.size(); ++i)
+    for (const auto& [column, weight] : suspect.amplitudes[static_cast<std::size_t>(i)])
+      spread(column) += weight * amplitudes(i);
+  return spread;
 }
 
 }  // namespace
@@ -199,9 +213,26 @@ ScoreTest ScoreTester::test(const SurveyCounts& counts, double floor) const {
     // Of all its places, the one that imitates best.
     for (const TestedSuspect& t : tested_)
       if (t.suspect->effect == effect.best.suspect.effect)
-        effect.likeness = std::max(effect.likeness, likeness(first.best, of_first, t, survey_.information));
+        effect.likeness =
+            std::max(effect.likeness, imitation(first.best, of_first, t, survey_.information).likeness);
   }
   return result;
+}
+
+VectorXd ScoreTester::difference(const Score& score, const std::string& other) const {
+  const TestedSuspect& own = *std::find_if(tested_.begin(), tested_.end(), [&](const TestedSuspect& t) {
+    return t.suspect->effect == score.suspect.effect && t.suspect->place == score.suspect.place;
+  });
+  VectorXd imitated = VectorXd::Zero(survey_.information.cols());
+  double most = 0;
+  for (const TestedSuspect& t : tested_) {
+    if (t.suspect->effect != other) continue;
+    const Imitation by_it = imitation(score, own, t, survey_.information);
+    if (by_it.likeness <= most) continue;
+    most = by_it.likeness;
+    imitated = spread_over_columns(*t.suspect, by_it.amplitudes, imitated.size());
+  }
+  return spread_over_columns(score.suspect, score.amplitudes, imitated.size()) - imitated;
 }
 
 bool is_inseparable(const EffectScore& effect, const EffectScore& first) {

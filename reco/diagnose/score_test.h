@@ -70,6 +70,9 @@ class ScoreTester {
   // Effects that change light by less than `floor` are not told from small differences between programs:
   // their gain is 0.
   ScoreTest test(const SurveyCounts& counts, double floor) const;
+  // By column of the survey: what this changes at its best amplitudes, less the most alike that the other
+  // effect can change, of all its places.
+  Eigen::VectorXd difference(const Score& score, const std::string& other) const;
   const std::vector<TestedSuspect>& suspects() const { return tested_; }
   // Gain at which an effect is named with this probability for everything tried.
   double gain_to_be_named(const std::string& effect, double alpha) const;

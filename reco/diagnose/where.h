@@ -5,18 +5,13 @@
 #include <vector>
 
 #include "propagation/model.h"
+#include "reco/diagnose/axes.h"
 #include "reco/diagnose/survey.h"
 
 namespace floe {
 
 // Light along one axis, in the survey's cells of it.
-struct ResidualProfile {
-  std::string axis;  // "depth", "azimuth", "distance", "time", "string", "module", "arrival angle"
-  std::string unit;
-  bool ordered = true;                  // neighbouring cells may form a region
-  bool circular = false;                // and the last is the first one's neighbour
-  std::vector<double> low, high;        // of the cells; of strings and modules their numbers
-  std::vector<std::string> names;       // of the cells, where they are no ranges
+struct ResidualProfile : AxisCells {
   std::vector<double> relative, error;  // counts above the expectation, as a share of it
 };
 

@@ -4,8 +4,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/QR>
 #include <cmath>
+#include <limits>
 
+#include "reco/diagnose/score_test.h"
+#include "reco/diagnose/separation.h"
 #include "reco/diagnose/suspects.h"
 #include "reco/ice_fit/ice_point.h"
 #include "reco/ice_fit/model_judge.h"
@@ -180,6 +184,47 @@ TEST_F(ASurvey, GapsOfTheTruthAreItsNoise) {
     EXPECT_NEAR(mean(i), 0, 4 * std::sqrt(variance / draws)) << i;
     EXPECT_NEAR((squares(i) - mean(i) * mean(i)) / variance, 1, 4 * std::sqrt(2.0 / draws) + 0.1) << i;
   }
+}
+
+// A module that counts more light is imitated in part by its whole string, brightness and time zero. What is
+// left of it, by least squares, is what tells the two apart.
+TEST_F(ASurvey, KnowsHowMuchLightTellsEffectsApart) {
+  using Kind = SurveyColumn::Kind;
+  constexpr double change = 0.2;
+  const auto suspect = [&](const char* effect, Kind kind, int string, int dom) {
+    const auto at = static_cast<int>(column(kind, string, dom));
+    return Suspect{effect, {{"string", string}, {"dom", dom}}, {{{at, 1.0}}}};
+  };
+  const std::vector<Suspect> suspects{suspect("module-efficiency", Kind::module_efficiency, 36, 21),
+                                      suspect("string-efficiency", Kind::string_efficiency, 36, 0)};
+  const ScoreTester tester(survey_, suspects, parameters_, 50, 1);
+  Score score{suspects[0], 0, Eigen::VectorXd::Constant(1, change)};
+  const auto apart = [&] {
+    return separation(model_, survey_, tester.difference(score, "string-efficiency"), "one", "other");
+  };
+
+  const SurveyRun& run = survey_.runs[0];
+  Eigen::VectorXd of_module = Eigen::VectorXd::Zero(run.bins.size());
+  Eigen::MatrixXd imitations(run.bins.size(), 3);
+  imitations << of_module, run.nuisance;
+  for (const RunBins::Receiver& receiver : run.bins.receivers()) {
+    const ModuleId id = model_.detector->modules()[receiver.module].id;
+    if (id == ModuleId{36, 21}) of_module.segment(receiver.first, receiver.bins()).setConstant(change);
+    if (id.string == 36) imitations.col(0).segment(receiver.first, receiver.bins()).setOnes();
+  }
+  const Eigen::VectorXd root = (run.trust * run.expected).sqrt();
+  const Eigen::VectorXd best =
+      (root.asDiagonal() * imitations).colPivHouseholderQr().solve(root.asDiagonal() * of_module);
+  const double square =
+      (run.expected * (of_module - imitations * best).array().square()).sum() / run.data_dispersion;
+  const Separation found = apart();
+  EXPECT_NEAR(found.light * square / 9, 1, 0.05);
+  EXPECT_EQ(found.run, "36,20");
+  EXPECT_NE(found.sentence.find("on modules below their flashers"), std::string::npos) << found.sentence;
+
+  score.amplitudes *= 1e-6;
+  EXPECT_EQ(apart().light, std::numeric_limits<double>::infinity());
+  EXPECT_NE(apart().sentence.find("other places"), std::string::npos);
 }
 
 // Simulations of one model differ in how well they fit the same data, by as much as is said.

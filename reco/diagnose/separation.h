@@ -1,0 +1,26 @@
+// What would tell two effects apart that these data cannot.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "propagation/model.h"
+#include "reco/diagnose/survey.h"
+
+namespace floe {
+
+struct Separation {
+  std::string effect, other;
+  // Of these runs, in units of the data's, at which the two would be three standard deviations apart;
+  // infinite where no light would do.
+  double light = 0;
+  std::string run;       // that tells the most for its light
+  std::string sentence;  // in words, with where in its light they differ
+};
+
+// `difference`: of the light that the two change, by column of the survey (ScoreTester::difference). The
+// simulation's noise is left out: it can have more light, too.
+Separation separation(const Model& model, const Survey& survey, const Eigen::VectorXd& difference,
+                      const std::string& effect, const std::string& other);
+
+}  // namespace floe
