@@ -154,6 +154,7 @@ Json table_json(const StudyTable& table) {
                      {"bias_error", line.bias_error},
                      {"median_error", line.median_error},
                      {"median_bound", line.median_bound},
+                     {"median_scatter", line.median_scatter},
                      {"pull_mean", line.pull_mean},
                      {"pull_width", line.pull_width},
                      {"pull_width_error", line.pull_width_error},

@@ -10,19 +10,13 @@
 #include <functional>
 #include <numeric>
 
+#include "reco/study/drawn_median.h"
+
 namespace floe {
 namespace {
 
 constexpr double share = 0.6827;
 constexpr double two_dimensions = 2.2958, three_dimensions = 3.5267;  // chi-square of `share`
-
-// Of the length of a Gaussian vector of this covariance, from its principal axes: the square is a sum of
-// scaled chi-squares, whose median Wilson and Hilferty's cube root gives to 1%.
-double median_length(const Eigen::MatrixXd& covariance) {
-  const double mean = covariance.trace(), variance = 2 * (covariance * covariance).trace();
-  const double freedom = 2 * mean * mean / variance;
-  return std::sqrt(mean * std::pow(1 - 2 / (9 * freedom), 3));
-}
 
 // Half of the interval between the quantiles that leave out as many values on either side as of a Gaussian
 // beyond one standard deviation.
@@ -55,7 +49,7 @@ class LineBuilder {
     lengths_.push_back(scale_ * length);
     inside_ += inside;
   }
-  void add_bound(double median_error) { bounds_.push_back(scale_ * median_error); }
+  void add_bound(const Eigen::MatrixXd& covariance) { bounds_.push_back(scale_ * scale_ * covariance); }
   void add_absolute(double value) { lengths_.push_back(scale_ * value); }
 
   StudyLine line() const {
@@ -78,7 +72,9 @@ class LineBuilder {
     result.pull_core = half_of_central_share(pulls_);
     result.pull_core_error = 0.96 * result.pull_core / std::sqrt(double(n));  // of a Gaussian's quantiles
     result.median_error = median(lengths_);
-    result.median_bound = median(bounds_);
+    const DrawnMedian at_bound = median_of_gaussian_lengths(bounds_);
+    result.median_bound = at_bound.value;
+    result.median_scatter = at_bound.scatter;
     result.coverage = double(inside_) / double(n);
     result.coverage_error = std::sqrt(share * (1 - share) / double(n));
     return result;
@@ -87,7 +83,8 @@ class LineBuilder {
  private:
   StudyLine line_;
   double scale_;
-  std::vector<double> differences_, pulls_, lengths_, bounds_;
+  std::vector<double> differences_, pulls_, lengths_;
+  std::vector<Eigen::MatrixXd> bounds_;
   std::size_t inside_ = 0;
 };
 
@@ -119,7 +116,6 @@ StudyResiduals residuals_of(const StudyRow& row, const StudyFit& fit) {
 }
 
 StudyTable summarise(std::span<const StudyRow> rows, const std::string& title) {
-  constexpr double gaussian_median = 0.67449;
   std::vector<LineBuilder> lines;
   for (const ShownParameter& shown : shown_parameters)
     lines.emplace_back(shown.name, shown.unit, 1 / shown.unit_size);
@@ -144,7 +140,7 @@ StudyTable summarise(std::span<const StudyRow> rows, const std::string& title) {
       line.add_signed(r.difference(i), error);
       line.add_absolute(std::abs(r.difference(i)));
       pooled.add_pull(r.difference(i) / error);
-      if (row.bound.allFinite()) line.add_bound(gaussian_median * std::sqrt(r.bound(i, i)));
+      if (row.bound.allFinite()) line.add_bound(r.bound.block<1, 1>(i, i));
     }
     const Eigen::Matrix3d c3 = r.covariance.topLeftCorner<3, 3>();
     const Eigen::Matrix2d c2 = r.covariance.block<2, 2>(4, 4);
@@ -153,8 +149,8 @@ StudyTable summarise(std::span<const StudyRow> rows, const std::string& title) {
     position.add_length(d3.norm(), d3.dot(c3.ldlt().solve(d3)) < three_dimensions);
     direction.add_length(d2.norm(), d2.dot(c2.ldlt().solve(d2)) < two_dimensions);
     if (row.bound.allFinite()) {
-      position.add_bound(median_length(r.bound.topLeftCorner<3, 3>()));
-      direction.add_bound(median_length(r.bound.block<2, 2>(4, 4)));
+      position.add_bound(r.bound.topLeftCorner<3, 3>());
+      direction.add_bound(r.bound.block<2, 2>(4, 4));
     }
   }
   for (const LineBuilder& line : lines) table.lines.push_back(line.line());
@@ -196,16 +192,17 @@ StudyBias summarise_bias(std::span<const StudyRow> rows) {
 std::string text_of(const StudyTable& table) {
   std::string text = fmt::format("{}: {} of {} events fitted", table.title, table.fitted, table.events);
   text += table.contested > 0 ? fmt::format(", {} with a competing minimum\n", table.contested) : "\n";
-  text += fmt::format("  {:<10} {:>4}  {:>17}  {:>8}  {:>8}  {:>5}  {:>6}  {:>13}  {:>14}  {:>13}\n", "", "",
+  text += fmt::format("  {:<10} {:>4}  {:>17}  {:>8}  {:>8}  {:>12}  {:>6}  {:>13}  {:>14}  {:>13}\n", "", "",
                       "bias", "median", "bound", "ratio", "pull", "pull width", "of central 68%", "in 68%");
   for (const StudyLine& line : table.lines) {
     const bool pulls = line.pull_width > 0, errors = line.median_error > 0;
     text += fmt::format("  {:<10} {:>4}", line.name, line.unit);
     text += line.bias_error > 0 ? fmt::format("  {:>8.3f} +- {:<5.3f}", line.bias, line.bias_error)
                                 : fmt::format("  {:>17}", "");
-    text += errors ? fmt::format("  {:>8.3f}  {:>8.3f}  {:>5.2f}", line.median_error, line.median_bound,
-                                 line.median_error / line.median_bound)
-                   : fmt::format("  {:>8}  {:>8}  {:>5}", "", "", "");
+    text += errors ? fmt::format("  {:>8.3f}  {:>8.3f}  {:>4.2f} +- {:<4.2f}", line.median_error,
+                                 line.median_bound, line.median_error / line.median_bound,
+                                 line.median_scatter / line.median_bound)
+                   : fmt::format("  {:>8}  {:>8}  {:>12}", "", "", "");
     text += pulls ? fmt::format("  {:>6.2f}  {:>5.2f} +- {:<4.2f}  {:>6.2f} +- {:<4.2f}", line.pull_mean,
                                 line.pull_width, line.pull_width_error, line.pull_core, line.pull_core_error)
                   : fmt::format("  {:>6}  {:>13}  {:>14}", "", "", "");

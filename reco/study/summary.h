@@ -30,7 +30,9 @@ struct StudyLine {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   double bias = unknown, bias_error = unknown;  // mean and its error
   double median_error = unknown;                // of |fit - truth|
-  double median_bound = unknown;  // what Gaussian errors at the Cramer-Rao bound would give for it
+  // What Gaussian errors at each event's Cramer-Rao bound would give for it, and how far the median of so
+  // many events would scatter about that.
+  double median_bound = unknown, median_scatter = unknown;
   // Pulls: (fit - truth) / error. The width is their standard deviation, the core half of the interval that
   // holds the central 68.27%; both are 1 for Gaussian errors, and a few events far off widen only the first.
   double pull_mean = unknown, pull_width = unknown, pull_width_error = unknown;

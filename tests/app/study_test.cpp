@@ -94,8 +94,8 @@ TEST_F(Study, PrintsTablesAndWritesJsonAndPicture) {
       const Json& line = table["lines"][i];
       EXPECT_EQ(line["name"], names[i]);
       EXPECT_EQ(line["count"], names[i] == "pooled" ? 7 * with_fit : with_fit) << names[i];
-      for (const char* key : {"unit", "bias", "bias_error", "median_error", "median_bound", "pull_mean",
-                              "pull_width", "pull_width_error", "coverage", "coverage_error"})
+      for (const char* key : {"unit", "bias", "bias_error", "median_error", "median_bound", "median_scatter",
+                              "pull_mean", "pull_width", "pull_width_error", "coverage", "coverage_error"})
         EXPECT_TRUE(line.contains(key)) << names[i] << " " << key;
     }
   }

@@ -51,6 +51,25 @@ TEST(StudySummary, GaussianErrorsHavePullsOfWidthOneAndCover) {
     EXPECT_NEAR(line_of(table, name).median_error / line_of(table, name).median_bound, 1, 0.1) << name;
 }
 
+// Half of the events ten times worse than the others: the median of errors is no event's own.
+TEST(StudySummary, BoundIsThatOfTheMedianOverAllEvents) {
+  constexpr int count = 400;
+  std::vector<StudyRow> rows = gaussian_rows(count);
+  for (int i = 0; i < count; ++i)
+    rows[static_cast<std::size_t>(i)].bound = Matrix7::Identity() * (i % 2 == 0 ? 1.0 : 100.0);
+  // erf(m / sqrt(2)) + erf(m / (10 sqrt(2))) = 1. Scatter: sqrt(sum of p (1 - p)) / (sum of densities).
+  constexpr double median_of_all = 1.5436;
+  const double narrow = std::erf(median_of_all / std::sqrt(2.0)),
+               wide = std::erf(median_of_all / std::sqrt(200.0));
+  ASSERT_NEAR(narrow + wide, 1, 1e-3);
+  const double peak = std::sqrt(2 / M_PI), square = median_of_all * median_of_all / 2;
+  const double density = peak * (std::exp(-square) + 0.1 * std::exp(-square / 100)) / 2;
+  const double scatter = std::sqrt((narrow * (1 - narrow) + wide * (1 - wide)) / 2 / count) / density;
+  const StudyLine line = line_of(summarise(rows, ""), "x");
+  EXPECT_NEAR(line.median_bound, median_of_all, 0.1 * scatter + 0.02);
+  EXPECT_NEAR(line.median_scatter, scatter, 0.15 * scatter);
+}
+
 TEST(StudySummary, OneEventFarOffWidensOnlyTheStandardDeviation) {
   std::vector<StudyRow> rows = gaussian_rows(100);
   const StudyLine before = line_of(summarise(rows, ""), "x");
