@@ -9,6 +9,7 @@
 
 #include "data/base/error.h"
 #include "reco/diagnose/goodness.h"
+#include "reco/ice_fit/held_out_runs.h"
 #include "reco/ice_fit/model_judge.h"
 
 namespace floe {
@@ -161,7 +162,7 @@ class Diagnoser {
   // All that is in the model already, and this suspect.
   std::vector<IceParameter> with(const std::vector<IceParameter>& more) const {
     std::vector<IceParameter> all = parameters_;
-    for (std::size_t i = 0; i < all.size(); ++i) all[i].start = numbers_[i];
+    for (std::size_t i = 0; i < all.size(); ++i) all[i].begin_at(numbers_[i]);
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
@@ -383,11 +384,12 @@ class Diagnoser {
       result_.gaps.push_back({data_.runs[r].name, before, before});
     }
     const int folds = parameters_.empty() ? 0 : options_.folds;
+    const HeldOutRuns held_out(data_, *base_.detector, options_.folds);
     for (int fold = 0; fold < folds; ++fold) {
       stage(0.9 + 0.1 * fold / folds, 0.9 + 0.1 * (fold + 1) / folds, "holding runs out");
-      const Model model = folds == 1 ? result_.improved : fitted_without(fold);
+      const Model model = folds == 1 ? result_.improved : fitted_to(held_out.rest(data_, fold));
       for (std::size_t r = 0; r < data_.runs.size(); ++r)
-        if (is_in_fold(r, fold, folds)) result_.gaps[r].after = gap(model, r);
+        if (held_out.holds(r, fold)) result_.gaps[r].after = gap(model, r);
     }
     for (const RunGap& run : result_.gaps) result_.gap_before += run.before, result_.gap_after += run.after;
     if (result_.gap_after > result_.gap_before) {
@@ -426,9 +428,8 @@ class Diagnoser {
     apply_effects(settings_of(effect), parts);
     return freeze(std::move(parts)).ice->hash() != base_.ice->hash();
   }
-  Model fitted_without(int fold) {
-    const std::vector<IceParameter> parameters = with({});
-    const IceFit blind = fit(without_fold(data_, fold, options_.folds), parameters, rounds_of_folds);
+  Model fitted_to(const FlasherData& rest) {
+    const IceFit blind = fit(rest, with({}), rounds_of_folds);
     return with_parameters(base_, blind.parameters, blind.numbers);
   }
 

@@ -29,7 +29,7 @@ DifferentLight different_light(const Survey& survey, const VectorXd& difference)
   for (const SurveyRun& run : survey.runs) {
     light.expected.segment(run.first, run.bins.size()) = run.expected;
     light.squared.segment(run.first, run.bins.size()) =
-        (run.weights[0] * difference).cwiseProduct(run.weights[1] * difference);
+        (run.halves[0] * difference).cwiseProduct(run.halves[1] * difference);
   }
   return light;
 }

@@ -61,6 +61,10 @@ struct RunSlopes {
   Eigen::VectorXd delay;
 };
 
+bool is_displacement(Kind kind) {
+  return kind == Kind::string_x || kind == Kind::string_y || kind == Kind::string_z;
+}
+
 // Of a change of one place: nothing in the bins of all others.
 Eigen::VectorXd place_slope(const SurveyColumn& column, const SurveyRun& run, const RunSlopes& slopes,
                             const Detector& detector) {
@@ -188,18 +192,14 @@ class Surveyor {
       slopes[fold].parameters = smooth.fold[fold];
       slopes[fold].raw = light.folds[fold].slopes.array().colwise() / light.folds[fold].counts.array().max(1);
     }
-    // Where pairs have photons of their own, both halves of theirs may serve.
-    for (Eigen::Index p = 0; p < slopes[0].parameters.cols(); ++p)
-      if (light.independent[static_cast<std::size_t>(p)])
-        slopes[0].parameters.col(p) = slopes[1].parameters.col(p) =
-            (smooth.fold[0].col(p) + smooth.fold[1].col(p)) / 2;
+    independent_ = light.independent;
     if (plan_.places) {
       RunRequest other = request;
       other.stream += 2;
       const DisplacedStrings displaced =
           displaced_strings(point_.model(), other, run.bins, time_zero, light, plan_.pair_light / 2);
       survey_.photons += displaced.propagated;
-      slopes[0].places = slopes[1].places = (displaced.fold[0] + displaced.fold[1]) / 2;
+      for (std::size_t fold = 0; fold < 2; ++fold) slopes[fold].places = displaced.fold[fold];
     }
     const Eigen::ArrayXd both = run.counts.simulated[0] + run.counts.simulated[1];
     run.expected = run.scale * both;
@@ -227,13 +227,27 @@ class Surveyor {
         all.leftCols(parameters) = slopes.parameters;
         for (Eigen::Index c = parameters; c < size; ++c)
           all.col(c) = place_slope(survey_.columns[static_cast<std::size_t>(c)], run, slopes, detector());
-        run.weights[fold] = projected(all, run.nuisance, run.trust * run.expected);
+        run.halves[fold] = projected(all, run.nuisance, run.trust * run.expected);
       }
+      set_weights(run);
       add_run(run);
       of_slopes_ += own_information(run, slopes_[2 * r], slopes_[2 * r + 1]);
     }
     scale_to_slopes();
     survey_.information = (survey_.information + survey_.information.transpose()).eval() / 2;
+  }
+
+  // Where pairs have photons of their own, both halves of theirs may serve.
+  void set_weights(SurveyRun& run) const {
+    run.weights = run.halves;
+    for (std::size_t c = 0; c < survey_.columns.size(); ++c) {
+      const SurveyColumn& column = survey_.columns[c];
+      const bool of_pairs = column.kind == Kind::parameter ? bool(independent_[column.parameter])
+                                                           : is_displacement(column.kind);
+      if (!of_pairs) continue;
+      const auto i = static_cast<Eigen::Index>(c);
+      run.weights[0].col(i) = run.weights[1].col(i) = (run.halves[0].col(i) + run.halves[1].col(i)) / 2;
+    }
   }
 
   // By parameter: what the diagonal of the information would be with slopes as simulated, right on average,
@@ -243,8 +257,8 @@ class Surveyor {
     const Eigen::ArrayXd light = run.trust * run.expected;
     Eigen::VectorXd sums(parameters);
     for (Eigen::Index p = 0; p < parameters; ++p)
-      sums(p) = (light * (run.weights[0].col(p).array() * odd.raw.col(p).array() +
-                          run.weights[1].col(p).array() * even.raw.col(p).array()))
+      sums(p) = (light * (run.halves[0].col(p).array() * odd.raw.col(p).array() +
+                          run.halves[1].col(p).array() * even.raw.col(p).array()))
                     .sum() /
                 2;
     return sums;
@@ -272,7 +286,8 @@ class Surveyor {
       if (const Sums& own = sums[group(p)]; own.information > 0)
         factor(p) = std::clamp(own.slope / own.information, least, most);
     for (SurveyRun& run : survey_.runs)
-      for (Eigen::MatrixXd& weights : run.weights) weights = weights * factor.asDiagonal();
+      for (auto* both : {&run.halves, &run.weights})
+        for (Eigen::MatrixXd& weights : *both) weights = weights * factor.asDiagonal();
     survey_.information = factor.asDiagonal() * survey_.information * factor.asDiagonal();
     survey_.noise = factor.asDiagonal() * survey_.noise * factor.asDiagonal();
   }
@@ -285,8 +300,8 @@ class Surveyor {
       const Eigen::MatrixXd root = weighted(w, variance);
       survey_.noise.noalias() += root.transpose() * root;
     };
-    const Eigen::MatrixXd light = run.weights[1].array().colwise() * (run.trust * run.expected);
-    survey_.information.noalias() += run.weights[0].transpose() * light;
+    const Eigen::MatrixXd light = run.halves[1].array().colwise() * (run.trust * run.expected);
+    survey_.information.noalias() += run.halves[0].transpose() * light;
     // The half that weights come from does not judge them: each half's expectation stands for all the light.
     for (std::size_t fold = 0; fold < 2; ++fold)
       add_noise(run.weights[fold],
@@ -304,6 +319,7 @@ class Surveyor {
   IcePoint point_;
   Survey survey_;
   std::vector<RunSlopes> slopes_;  // of each run, even and odd photons
+  std::vector<char> independent_;  // by parameter: its pairs have photons of their own
   Eigen::VectorXd of_slopes_;      // by parameter
 };
 

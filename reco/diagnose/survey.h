@@ -45,7 +45,10 @@ struct SurveyRun {
   double model_error = 0;
   FoldedCounts counts;
   PhotonDraws draws;
-  // Bins x columns, brightness and time zero projected out: from even, from odd photons.
+  // Bins x columns, brightness and time zero projected out: from even, from odd photons. No photon has to do
+  // with both, so that products of the two have no noise on average.
+  std::array<Eigen::MatrixXd, 2> halves;
+  // For scores: the halves, or their mean where the score's photons have nothing to do with them.
   std::array<Eigen::MatrixXd, 2> weights;
   Eigen::MatrixXd nuisance;  // bins x 2: slopes of ln(light) in ln(brightness) and time zero
   Eigen::ArrayXd expected, trust;

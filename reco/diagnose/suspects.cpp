@@ -190,7 +190,7 @@ std::vector<IceParameter> fit_parameters(const Suspect& suspect, const Eigen::Ve
   } else if (suspect.layers) {
     parameters = tilt_parameters(*suspect.layers);
     for (std::size_t i = 0; i < parameters.size(); ++i)
-      parameters[i].start = within(parameters[i], amplitudes(static_cast<Eigen::Index>(i)));
+      parameters[i].begin_at(within(parameters[i], amplitudes(static_cast<Eigen::Index>(i))));
   } else {
     Eigen::Index i = 0;
     for (const EffectParameter& parameter : find_effect(suspect.effect).parameters(parts_of(base))) {

@@ -18,7 +18,7 @@ namespace floe {
 
 struct IceFitOptions : RunSettings {
   double smoothness = 0.5;  // prior: width of the difference between neighbouring layers, in the logarithm
-  double amplitude = 1;     // prior: width of each parameter about its start, in the logarithm
+  double amplitude = 1;     // prior: width of each parameter about where it began, in the logarithm
   // Prior: width of each receiver's relative efficiency about the model's, all of them fitted along; 0:
   // known.
   double efficiency_width = 0;

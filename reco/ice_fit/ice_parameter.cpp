@@ -84,6 +84,11 @@ std::vector<IceParameter> layer_parameters(LayerFamily family, const DepthRange&
   return parameters;
 }
 
+void IceParameter::begin_at(double number) {
+  if (!prior_centre) prior_centre = start;
+  start = number;
+}
+
 std::vector<IceParameter> tilt_parameters(const DepthRange& range) {
   // Published slopes stay within 50 m/km (arXiv:2307.13951); light follows a change to first order as far as
   // dust layers are thick: 10 m at 300 m.

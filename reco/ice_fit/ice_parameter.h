@@ -20,7 +20,8 @@ struct IceParameter {
   bool logarithmic = false;  // the value shown is the exponential of the number
   double start = 0, low = 0, high = 0;
   double scale = 1;  // of a large change: no step of the fit is longer
-  double prior = 0;  // width of a Gaussian about the start; 0: that of its family, or none
+  double prior = 0;  // width of a Gaussian about its centre; 0: that of its family, or none
+  std::optional<double> prior_centre = {};  // none: the start
   // Neighbours of one family, in order of depth, are held together by the smoothness prior, in units of
   // `scale`.
   std::string family;
@@ -28,6 +29,9 @@ struct IceParameter {
   // How it changes the model: a change of its own, or a parameter of an effect of the catalogue.
   std::function<void(double number, ModelParts& model)> apply;
   std::optional<EffectSetting> effect;  // its value is the number
+
+  // Where the data have led already. The prior stays where it is: data must not speak twice.
+  void begin_at(double number);
 };
 
 // Depths that a family is divided over: rows of the layer table, in groups of equal thickness. Rows beyond

@@ -35,7 +35,7 @@ PriorRows prior_rows(const std::vector<IceParameter>& parameters, const std::vec
     const double width = p.prior > 0 ? p.prior : p.family.empty() ? 0 : priors.amplitude * p.scale;
     if (width > 0) {
       rows.emplace_back(Eigen::VectorXd::Unit(size, column) / width);
-      values.push_back((p.start - numbers[i]) / width);
+      values.push_back((p.prior_centre.value_or(p.start) - numbers[i]) / width);
     }
     if (i == 0 || p.family.empty() || parameters[i - 1].family != p.family) continue;
     const double difference = priors.smoothness * p.scale;

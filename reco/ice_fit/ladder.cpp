@@ -9,6 +9,7 @@
 
 #include "data/base/error.h"
 #include "reco/ice_fit/anisotropies.h"
+#include "reco/ice_fit/held_out_runs.h"
 #include "reco/ice_fit/model_judge.h"
 #include "reco/ice_fit/run_plan.h"
 
@@ -79,13 +80,14 @@ class Climb {
     rung.name = plan.name;
     std::vector<IceParameter> parameters = parameters_of(plan, bare);
     rung.fit = fit(bare, data_, parameters, options_.fit.most_rounds);
-    for (std::size_t i = 0; i < parameters.size(); ++i) parameters[i].start = rung.fit.numbers[i];
+    for (std::size_t i = 0; i < parameters.size(); ++i) parameters[i].begin_at(rung.fit.numbers[i]);
     rung.held_out.assign(data_.runs.size(), 0);
+    const HeldOutRuns held_out(data_, *base_.detector, options_.folds);
     for (int fold = 0; fold < options_.folds; ++fold) {
-      const IceFit blind = fit(bare, without_fold(data_, fold, options_.folds), parameters, rounds_of_folds);
+      const IceFit blind = fit(bare, held_out.rest(data_, fold), parameters, rounds_of_folds);
       const Model model = with_parameters(bare, parameters, blind.numbers);
       for (std::size_t r = 0; r < data_.runs.size(); ++r)
-        if (is_in_fold(r, fold, options_.folds)) rung.held_out[r] = judge_->measure(model, r).neg_llh;
+        if (held_out.holds(r, fold)) rung.held_out[r] = judge_->measure(model, r).neg_llh;
     }
     return rung;
   }

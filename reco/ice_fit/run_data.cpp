@@ -126,17 +126,6 @@ FlasherDepths flasher_depths(const FlasherData& data, const Detector& detector) 
   return depths;
 }
 
-bool is_in_fold(std::size_t run, int fold, int folds) {
-  return static_cast<int>(run) % folds == fold;
-}
-
-FlasherData without_fold(const FlasherData& data, int fold, int folds) {
-  FlasherData rest;
-  for (std::size_t r = 0; r < data.runs.size(); ++r)
-    if (!is_in_fold(r, fold, folds)) rest.runs.push_back(data.runs[r]);
-  return rest;
-}
-
 FlasherData flasher_data(const Detector& detector, std::span<const Event> events) {
   FlasherData data;
   for (const Event& event : events) {

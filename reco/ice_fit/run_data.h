@@ -46,10 +46,6 @@ struct FlasherDepths {
 };
 FlasherDepths flasher_depths(const FlasherData& data, const Detector& detector);
 
-// What is left when runs are held out: run r is in fold r modulo `folds`.
-FlasherData without_fold(const FlasherData& data, int fold, int folds);
-bool is_in_fold(std::size_t run, int fold, int folds);
-
 // The flasher runs among the events. Left out, with a sentence: events that are no flasher run, runs without
 // any light, runs at another wavelength than most. Modules that are off and the flashing module itself are
 // left out without a word. Throws InputError for modules that the detector does not have, and NoResult when

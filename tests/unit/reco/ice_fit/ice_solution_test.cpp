@@ -104,6 +104,16 @@ TEST(IceSolution, PriorsAboutTheStart) {
   EXPECT_NEAR(solution.light_errors[1], 0.1, 1e-5);  // whatever the priors
 }
 
+// A fit that goes on where another ended has the same prior, not one about what the data have said.
+TEST(IceSolution, PriorsStayWhereTheyWere) {
+  auto parameters = family("absorption", 1);
+  parameters[0].begin_at(0.8);
+  parameters[0].begin_at(1);
+  const ScoreSystem system = known(Eigen::VectorXd::Constant(1, 0.5), Eigen::VectorXd::Constant(1, 0.2));
+  const IceSolution solution = solve_ice(system, parameters, {1}, {0.5, 0.2}, 10);
+  EXPECT_NEAR(1 + solution.step(0), 0.75, 1e-3);  // between 1.5 and 0
+}
+
 TEST(IceSolution, LimitsAndTheLongestStepAreKept) {
   auto parameters = family("", 5);
   for (IceParameter& parameter : parameters) parameter.low = -1, parameter.high = 1;

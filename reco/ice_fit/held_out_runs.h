@@ -1,0 +1,28 @@
+// Runs that are held out in turn: each is judged by a model that was fitted to others.
+#pragma once
+
+#include <vector>
+
+#include "geometry/detector.h"
+#include "reco/ice_fit/run_data.h"
+
+namespace floe {
+
+// Dealt out by the depth of their flashers: ice is made of layers, and a run can only be told by what others
+// say of its own depths.
+class HeldOutRuns {
+ public:
+  // 1 to the number of runs are held out at a time, in so many folds.
+  HeldOutRuns(const FlasherData& data, const Detector& detector, int folds);
+
+  int folds() const { return folds_; }
+  bool holds(std::size_t run, int fold) const { return fold_of_run_[run] == fold; }
+  // The other folds' runs of the same data.
+  FlasherData rest(const FlasherData& data, int fold) const;
+
+ private:
+  int folds_;
+  std::vector<int> fold_of_run_;
+};
+
+}  // namespace floe
