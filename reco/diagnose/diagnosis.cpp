@@ -108,15 +108,16 @@ class Diagnoser {
     const std::vector<Suspect> suspects = suspects_of(survey, plan);
     const ScoreTester tester(survey, suspects, plan.parameters, options_.draws, options_.seed);
     now.scores = tester.test(measured_counts(survey), options_.floor);
-    now.where = where_is_the_gap(model, survey, options_.draws, options_.seed);
-    find_separations(model, survey, tester, now.scores);
+    const std::vector<Axis> axes = axes_of(model, survey);
+    now.where = where_is_the_gap(survey, axes, options_.draws, options_.seed);
+    find_separations(survey, axes, tester, now.scores);
     result_.steps.push_back(std::move(now));
     const DiagnosisStep& last = result_.steps.back();
     return last.scores.p_value < options_.alpha / 2 || last.p_of_fit < options_.alpha / 2;
   }
 
   // Of all that may become a group.
-  void find_separations(const Model& model, const Survey& survey, const ScoreTester& tester,
+  void find_separations(const Survey& survey, const std::vector<Axis>& axes, const ScoreTester& tester,
                         const ScoreTest& scores) {
     separations_.clear();
     std::vector<const Score*> rivals;
@@ -126,7 +127,7 @@ class Diagnoser {
     for (const Score* one : rivals)
       for (const Score* other : rivals)
         if (one != other)
-          separations_.push_back(separation(model, survey, tester.difference(*one, other->suspect.effect),
+          separations_.push_back(separation(survey, axes, tester.difference(*one, other->suspect.effect),
                                             one->suspect.effect, other->suspect.effect));
   }
   static bool leads(const EffectScore& effect, const ScoreTest& scores) {

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "reco/diagnose/axes.h"
-
 namespace floe {
 
 namespace {
@@ -25,13 +23,11 @@ struct DifferentLight {
 };
 
 DifferentLight different_light(const Survey& survey, const VectorXd& difference) {
-  DifferentLight light{VectorXd(survey.bins), VectorXd(survey.bins)};
-  for (const SurveyRun& run : survey.runs) {
-    light.expected.segment(run.first, run.bins.size()) = run.expected;
-    light.squared.segment(run.first, run.bins.size()) =
+  VectorXd squared(survey.bins);
+  for (const SurveyRun& run : survey.runs)
+    squared.segment(run.first, run.bins.size()) =
         (run.halves[0] * difference).cwiseProduct(run.halves[1] * difference);
-  }
-  return light;
+  return {expected_of(survey), std::move(squared)};
 }
 
 // Chi-square between the two, by bin, for data of so many times the light.
@@ -102,7 +98,7 @@ std::string need_text(const Separation& s) {
 
 }  // namespace
 
-Separation separation(const Model& model, const Survey& survey, const VectorXd& difference,
+Separation separation(const Survey& survey, const std::vector<Axis>& axes, const VectorXd& difference,
                       const std::string& effect, const std::string& other) {
   Separation result{effect, other, 0, "", ""};
   const DifferentLight light = different_light(survey, difference);
@@ -115,7 +111,6 @@ Separation separation(const Model& model, const Survey& survey, const VectorXd& 
   }
   const VectorXd squares = apart(survey, light, result.light);
   result.run = telling_run(survey, light.expected, squares).name;
-  const std::vector<Axis> axes = axes_of(model, survey);
   const TellingRegion region = telling_region(axes, light.expected, squares);
   result.sentence = need_text(result) + fmt::format("; run {} tells the most for its light", result.run);
   if (region.axis)

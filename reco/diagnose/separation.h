@@ -3,8 +3,9 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <vector>
 
-#include "propagation/model.h"
+#include "reco/diagnose/axes.h"
 #include "reco/diagnose/survey.h"
 
 namespace floe {
@@ -18,9 +19,9 @@ struct Separation {
   std::string sentence;  // in words, with where in its light they differ
 };
 
-// `difference`: of the light that the two change, by column of the survey (ScoreTester::difference). The
-// simulation's noise is left out: it can have more light, too.
-Separation separation(const Model& model, const Survey& survey, const Eigen::VectorXd& difference,
+// `axes`: of the survey. `difference`: of the light that the two change, by column of the survey
+// (ScoreTester::difference). The simulation's noise is left out: it can have more light, too.
+Separation separation(const Survey& survey, const std::vector<Axis>& axes, const Eigen::VectorXd& difference,
                       const std::string& effect, const std::string& other);
 
 }  // namespace floe

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <random>
 #include <set>
 
 #include "reco/diagnose/displaced_strings.h"
@@ -251,7 +252,7 @@ class Surveyor {
   }
 
   // By parameter: what the diagonal of the information would be with slopes as simulated, right on average,
-  // in place of one of the two weights.
+  // in place of one of the two halves.
   Eigen::VectorXd own_information(const SurveyRun& run, const RunSlopes& even, const RunSlopes& odd) const {
     const Eigen::Index parameters = even.raw.cols();
     const Eigen::ArrayXd light = run.trust * run.expected;
@@ -361,6 +362,12 @@ std::vector<double> neg_llh_of(const Survey& survey, const SurveyCounts& counts)
                        .neg_llh);
   }
   return sums;
+}
+
+Eigen::VectorXd expected_of(const Survey& survey) {
+  Eigen::VectorXd expected(survey.bins);
+  for (const SurveyRun& run : survey.runs) expected.segment(run.first, run.bins.size()) = run.expected;
+  return expected;
 }
 
 Eigen::VectorXd residual_of(const Survey& survey, const SurveyCounts& counts) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -72,6 +73,8 @@ SurveyCounts drawn_counts(const Survey& survey, std::uint64_t seed, std::uint64_
 Eigen::VectorXd gap_of(const Survey& survey, const SurveyCounts& counts);
 // -ln L by run, saturated, at the best brightness.
 std::vector<double> neg_llh_of(const Survey& survey, const SurveyCounts& counts);
+// By bin: counts of the data that the model expects.
+Eigen::VectorXd expected_of(const Survey& survey);
 // By bin: counts above the expectation, brightness and time zero of each run projected out.
 Eigen::VectorXd residual_of(const Survey& survey, const SurveyCounts& counts);
 

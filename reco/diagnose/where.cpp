@@ -13,39 +13,82 @@ namespace {
 
 using Eigen::VectorXd;
 
+// By bin, or by cell of an axis.
+struct Residuals {
+  VectorXd off, variance, expected;
+};
+
+Residuals along(const Axis& axis, const Residuals& all) {
+  return {axis.sums(all.off), axis.sums(all.variance), axis.sums(all.expected)};
+}
+
+VectorXd variance_of(const Survey& survey) {
+  VectorXd variance(survey.bins);
+  for (const SurveyRun& run : survey.runs)
+    variance.segment(run.first, run.bins.size()) = run.data_dispersion * run.expected +
+                                                   run.dispersion * run.scale * run.expected +
+                                                   (run.model_error * run.expected).square();
+  return variance;
+}
+
 struct Extreme : CellRange {
   double z = 0;
 };
 
 // Of all regions up to half of the axis. A few counts where hardly any light is expected are not Gaussian.
-Extreme extreme(const AxisCells& axis, const VectorXd& residual, const VectorXd& variance,
-                const VectorXd& expected) {
+Extreme extreme(const AxisCells& axis, const Residuals& cells) {
   constexpr double least_light = 20;
-  const auto size = static_cast<int>(residual.size());
-  const int most = axis.ordered ? std::max(1, size / 2) : 1;
+  const int size = axis.size(), most = axis.ordered ? std::max(1, size / 2) : 1;
   Extreme best;
   for (int first = 0; first < size; ++first) {
-    double sum = 0, square = 0, light = 0;
-    for (int cells = 1; cells <= most; ++cells) {
-      int cell = first + cells - 1;
+    double off = 0, variance = 0, light = 0;
+    for (int count = 1; count <= most; ++count) {
+      int cell = first + count - 1;
       if (cell >= size && !axis.circular) break;
       cell %= size;
-      sum += residual(cell), square += variance(cell), light += expected(cell);
+      off += cells.off(cell), variance += cells.variance(cell), light += cells.expected(cell);
       if (light < least_light) continue;
-      const double z = sum / std::sqrt(square);
-      if (std::abs(z) > std::abs(best.z)) best = {{first, cells}, z};
+      const double z = off / std::sqrt(variance);
+      if (std::abs(z) > std::abs(best.z)) best = {{first, count}, z};
     }
   }
   return best;
 }
 
-Region region_of(const AxisCells& axis, const Extreme& at, const VectorXd& residual, const VectorXd& expected,
-                 double significance) {
+// By axis: what half the square of the extreme is in light of the model itself.
+std::vector<std::vector<double>> drawn_extremes(const Survey& survey, const std::vector<Axis>& axes,
+                                                const std::vector<Residuals>& cells, int draws,
+                                                std::uint64_t seed) {
+  constexpr std::uint64_t first_draw = std::uint64_t{1} << 32;
+  std::vector<std::vector<double>> drawn(axes.size(), std::vector<double>(static_cast<std::size_t>(draws)));
+#pragma omp parallel for schedule(dynamic)
+  for (int d = 0; d < draws; ++d) {
+    const auto draw = static_cast<std::size_t>(d);
+    const VectorXd off = residual_of(survey, drawn_counts(survey, seed, first_draw + draw));
+    for (std::size_t a = 0; a < axes.size(); ++a) {
+      const double z = extreme(axes[a], {axes[a].sums(off), cells[a].variance, cells[a].expected}).z;
+      drawn[a][draw] = z * z / 2;
+    }
+  }
+  return drawn;
+}
+
+ResidualProfile profile_of(const AxisCells& axis, const Residuals& cells) {
+  ResidualProfile profile{axis, {}, {}};
+  for (Eigen::Index i = 0; i < cells.off.size(); ++i) {
+    const double light = cells.expected(i);
+    profile.relative.push_back(light > 0 ? cells.off(i) / light : 0);
+    profile.error.push_back(light > 0 ? std::sqrt(cells.variance(i)) / light : 0);
+  }
+  return profile;
+}
+
+Region region_of(const AxisCells& axis, const Extreme& at, const Residuals& cells, double significance) {
+  const int size = axis.size();
   double off = 0, light = 0;
-  const auto size = static_cast<int>(residual.size());
   for (int i = 0; i < at.cells; ++i) {
-    off += residual((at.first + i) % size);
-    light += expected((at.first + i) % size);
+    off += cells.off((at.first + i) % size);
+    light += cells.expected((at.first + i) % size);
   }
   Region region;
   region.axis = axis.axis;
@@ -60,53 +103,51 @@ Region region_of(const AxisCells& axis, const Extreme& at, const VectorXd& resid
   return region;
 }
 
-// Of all bins.
-struct Residuals {
-  VectorXd off, variance, expected;
-};
-
 // By how much more the data are off in the second half of the light along an axis than in the first, in
-// standard deviations; positive where the gap grows.
-double growth(const Axis& axis, const std::vector<char>& inside, const Residuals& all) {
-  VectorXd sums[3];
-  const VectorXd* values[] = {&all.off, &all.variance, &all.expected};
-  for (int k = 0; k < 3; ++k) {
-    VectorXd there = *values[k];
-    for (Eigen::Index b = 0; b < there.size(); ++b)
-      if (!inside[static_cast<std::size_t>(b)]) there(b) = 0;
-    sums[k] = axis.sums(there);
-  }
-  const double middle = sums[2].sum() / 2;
+// standard deviations; positive where the gap grows. `bins`: of the region, nothing elsewhere.
+double growth(const Axis& axis, const Residuals& bins) {
+  const Residuals cells = along(axis, bins);
+  const double middle = cells.expected.sum() / 2;
   Eigen::Index split = 0;
-  for (double light = 0; split < sums[2].size() && light < middle; ++split) light += sums[2](split);
+  for (double light = 0; split < cells.expected.size() && light < middle; ++split)
+    light += cells.expected(split);
   double relative[2], variance[2];
   for (int half = 0; half < 2; ++half) {
     const auto of_half = [&](const VectorXd& v) {
       return half == 0 ? v.head(split).sum() : v.tail(v.size() - split).sum();
     };
-    const double light = of_half(sums[2]);
+    const double light = of_half(cells.expected);
     if (!(light > 0)) return 0;
-    relative[half] = of_half(sums[0]) / light;
-    variance[half] = of_half(sums[1]) / (light * light);
+    relative[half] = of_half(cells.off) / light;
+    variance[half] = of_half(cells.variance) / (light * light);
   }
   const double error = std::sqrt(variance[0] + variance[1]);
   const double difference = std::abs(relative[1] - relative[0]);
   return (std::abs(relative[1]) > std::abs(relative[0]) ? difference : -difference) / error;
 }
 
+Residuals inside(const Axis& axis, const CellRange& range, Residuals bins) {
+  const int size = axis.size();
+  for (std::size_t b = 0; b < axis.cell.size(); ++b) {
+    const int cell = axis.cell[b];
+    if (cell >= 0 && (cell - range.first + size) % size < range.cells) continue;
+    const auto i = static_cast<Eigen::Index>(b);
+    bins.off(i) = bins.variance(i) = bins.expected(i) = 0;
+  }
+  return bins;
+}
+
 std::string sentence_of(const Region& region, const Axis& axis, const Extreme& at, const Axis& distance,
                         const Axis& time, const Residuals& all) {
   constexpr double clear = 3;  // standard deviations
-  const auto size = axis.size();
-  std::vector<char> inside;
-  for (const int cell : axis.cell) inside.push_back(cell >= 0 && (cell - at.first + size) % size < at.cells);
+  const Residuals here = inside(axis, at, all);
   std::string text = region.sentence.substr(0, region.sentence.size() - 1);
   if (region.axis != "distance") {
-    const double grows = growth(distance, inside, all);
+    const double grows = growth(distance, here);
     text += grows > clear ? ", growing with distance" : grows < -clear ? ", fading with distance" : "";
   }
   if (region.axis != "time") {
-    const double grows = growth(time, inside, all);
+    const double grows = growth(time, here);
     text += grows > clear    ? ", most in late light"
             : grows < -clear ? ", most in early light"
                              : ", timing unchanged";
@@ -116,45 +157,20 @@ std::string sentence_of(const Region& region, const Axis& axis, const Extreme& a
 
 }  // namespace
 
-Whereabouts where_is_the_gap(const Model& model, const Survey& survey, int draws, std::uint64_t seed) {
-  const std::vector<Axis> axes = axes_of(model, survey);
-  VectorXd expected(survey.bins), variance(survey.bins);
-  for (const SurveyRun& run : survey.runs) {
-    const Eigen::ArrayXd light = run.expected;
-    expected.segment(run.first, run.bins.size()) = light;
-    variance.segment(run.first, run.bins.size()) =
-        run.data_dispersion * light + run.dispersion * run.scale * light + (run.model_error * light).square();
-  }
-  const Residuals all{residual_of(survey, measured_counts(survey)), variance, expected};
-  std::vector<std::vector<double>> drawn(axes.size(), std::vector<double>(static_cast<std::size_t>(draws)));
-  std::vector<VectorXd> variances, lights;
-  for (const Axis& axis : axes) {
-    variances.push_back(axis.sums(variance));
-    lights.push_back(axis.sums(expected));
-  }
-#pragma omp parallel for schedule(dynamic)
-  for (int d = 0; d < draws; ++d) {
-    const VectorXd off = residual_of(
-        survey, drawn_counts(survey, seed, (std::uint64_t{1} << 32) + static_cast<std::uint64_t>(d)));
-    for (std::size_t a = 0; a < axes.size(); ++a) {
-      const double z = extreme(axes[a], axes[a].sums(off), variances[a], lights[a]).z;
-      drawn[a][static_cast<std::size_t>(d)] = z * z / 2;
-    }
-  }
+Whereabouts where_is_the_gap(const Survey& survey, const std::vector<Axis>& axes, int draws,
+                             std::uint64_t seed) {
+  const Residuals all{residual_of(survey, measured_counts(survey)), variance_of(survey), expected_of(survey)};
+  std::vector<Residuals> cells;
+  for (const Axis& axis : axes) cells.push_back(along(axis, all));
+  const std::vector<std::vector<double>> drawn = drawn_extremes(survey, axes, cells, draws, seed);
   Whereabouts where;
   std::vector<Extreme> extremes;
   for (std::size_t a = 0; a < axes.size(); ++a) {
-    ResidualProfile profile{axes[a], {}, {}};
-    const VectorXd off = axes[a].sums(all.off), &light = lights[a];
-    for (Eigen::Index i = 0; i < off.size(); ++i) {
-      profile.relative.push_back(light(i) > 0 ? off(i) / light(i) : 0);
-      profile.error.push_back(light(i) > 0 ? std::sqrt(variances[a](i)) / light(i) : 0);
-    }
-    const Extreme at = extreme(axes[a], off, variances[a], light);
+    const Extreme at = extreme(axes[a], cells[a]);
     const double ln_p = ln_tail_probability(at.z * at.z / 2, drawn[a]);
-    where.regions.push_back(region_of(axes[a], at, off, light, sigmas_of(ln_p)));
+    where.regions.push_back(region_of(axes[a], at, cells[a], sigmas_of(ln_p)));
     extremes.push_back(at);
-    where.profiles.push_back(std::move(profile));
+    where.profiles.push_back(profile_of(axes[a], cells[a]));
   }
   const auto first = static_cast<std::size_t>(
       std::max_element(where.regions.begin(), where.regions.end(),

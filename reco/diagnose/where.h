@@ -1,10 +1,10 @@
 // Where simulation and data disagree: along each of several axes, the region that sticks out the most.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "propagation/model.h"
 #include "reco/diagnose/axes.h"
 #include "reco/diagnose/survey.h"
 
@@ -32,7 +32,8 @@ struct Whereabouts {
   std::vector<Region> regions;  // one an axis, the most significant first
 };
 
-// Significances are calibrated with `draws` of the model's own light.
-Whereabouts where_is_the_gap(const Model& model, const Survey& survey, int draws, std::uint64_t seed);
+// `axes`: of the survey. Significances are calibrated with `draws` of the model's own light.
+Whereabouts where_is_the_gap(const Survey& survey, const std::vector<Axis>& axes, int draws,
+                             std::uint64_t seed);
 
 }  // namespace floe

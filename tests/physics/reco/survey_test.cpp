@@ -200,7 +200,8 @@ TEST_F(ASurvey, KnowsHowMuchLightTellsEffectsApart) {
   const ScoreTester tester(survey_, suspects, parameters_, 50, 1);
   Score score{suspects[0], 0, Eigen::VectorXd::Constant(1, change)};
   const auto apart = [&] {
-    return separation(model_, survey_, tester.difference(score, "string-efficiency"), "one", "other");
+    return separation(survey_, axes_of(model_, survey_), tester.difference(score, "string-efficiency"), "one",
+                      "other");
   };
 
   const SurveyRun& run = survey_.runs[0];
