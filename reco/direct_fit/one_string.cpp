@@ -6,7 +6,7 @@
 namespace floe {
 
 std::optional<Vec3> axis_of_only_string(const EventData& data) {
-  constexpr double nearly_all = 0.9;
+  constexpr double nearly_all = 0.85;
   std::map<int, double> charge;
   for (const ModuleData& lit : data.lit())
     charge[data.detector().modules()[lit.module].id.string] += lit.charge;
@@ -23,6 +23,13 @@ LightCentre turned_about(const Vec3& axis, double angle, const LightCentre& ligh
   turned.position = axis + turn * (light.position - axis);
   turned.direction = turn * light.direction;
   return turned;
+}
+
+LightCentre mirrored_about(const Vec3& axis, const LightCentre& light) {
+  LightCentre mirrored = light;
+  const Vec3 across = (light.position - axis).cross(Vec3::UnitZ()).normalized();  // 0 on the axis
+  mirrored.direction -= 2 * across.dot(light.direction) * across;
+  return mirrored;
 }
 
 }  // namespace floe

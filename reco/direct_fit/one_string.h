@@ -1,5 +1,6 @@
-// Light that one string saw alone says nothing of the azimuth about that string: what few photoelectrons
-// others saw has to choose, and searches that walk downhill may end on the wrong side.
+// Light that one string saw alone says nothing of the azimuth about that string, nor on which side of the
+// plane through string and light it travels: what few photoelectrons others saw has to choose, and searches
+// that walk downhill may end on the wrong side.
 #pragma once
 
 #include <optional>
@@ -14,5 +15,7 @@ std::optional<Vec3> axis_of_only_string(const EventData& data);
 
 // The same light, turned about the vertical through a point by an angle [rad].
 LightCentre turned_about(const Vec3& axis, double angle, const LightCentre& light);
+// And mirrored in the vertical plane through that point and the light, which only changes its direction.
+LightCentre mirrored_about(const Vec3& axis, const LightCentre& light);
 
 }  // namespace floe

@@ -1,9 +1,30 @@
 #include "reco/direct_fit/other_minimum.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 namespace floe {
+namespace {
+
+// In -ln L: one that is not so much worse competes, nor one that is by less than its error more.
+constexpr double competing = 3, competing_errors = 1;
+// An end that is about an error off its minimum in each of seven numbers has lost half a chi-square of seven,
+// known to its square root.
+constexpr double lost_by_unsolved = 3.5;
+
+}  // namespace
+
+std::optional<OtherMinimum> competing_minimum(std::span<const OtherEnd> ends) {
+  std::optional<OtherMinimum> nearest;
+  for (const OtherEnd& end : ends) {
+    const double lost = end.unsolved ? lost_by_unsolved : 0;
+    const double value = std::max(0.0, end.worse - lost), error = std::hypot(end.error, std::sqrt(lost));
+    if (value < competing + competing_errors * error && (!nearest || value < nearest->delta_neg_llh))
+      nearest = OtherMinimum{end.cascade, value, error};
+  }
+  return nearest;
+}
 
 double share_of(const OtherMinimum& other) {
   const double variance = other.delta_neg_llh_error * other.delta_neg_llh_error;

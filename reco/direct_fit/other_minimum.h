@@ -1,6 +1,8 @@
 // Two minima that the data hardly tell apart, as cascades mirrored about a string are.
 #pragma once
 
+#include <optional>
+#include <span>
 #include <string>
 
 #include "reco/direct_fit/cascade_parameters.h"
@@ -12,6 +14,16 @@ struct OtherMinimum {
   CascadeParameters cascade;
   double delta_neg_llh = 0, delta_neg_llh_error = 0;
 };
+
+// Where a search ended, beside the best.
+struct OtherEnd {
+  CascadeParameters cascade;
+  double worse = 0, error = 0;  // than the best, in -ln L from equal simulations
+  bool unsolved = false;        // not brought to its minimum, while the best was
+};
+// The one of them that competes with the best and is the least worse, if any does. An unsolved one counts as
+// what it would be at its minimum.
+std::optional<OtherMinimum> competing_minimum(std::span<const OtherEnd> ends);
 
 // The odds that the truth is there rather than at the best minimum, 0 to 0.5: exp(-delta) against 1, with
 // the error of delta averaged over (MacKay 1992, Neural Computation 4, 720, eq. 10).

@@ -25,8 +25,6 @@ constexpr std::size_t most_starts = 3;
 constexpr double same_place = 8, same_direction = 25 * degree;  // [m]
 // A minimum so much worse in -ln L, by this many errors as well, is left behind.
 constexpr double hopeless = 8, hopeless_errors = 3;
-// And one that is not even so much worse competes with the best.
-constexpr double competing = 3, competing_errors = 1;
 constexpr int contest_parts = 4;  // independent simulations of each minimum
 constexpr std::uint64_t contest_stream = std::uint64_t{1} << 41;
 
@@ -237,14 +235,17 @@ std::vector<Search::Minimum> Search::around_only_string(std::vector<Minimum> min
   constexpr std::size_t most_around_string = 3;
   const std::optional<Vec3> axis = axis_of_only_string(data_);
   if (!axis) return minima;
-  std::vector<RoundEnd> ends, turned(turns - 1, minima.front().end);
+  const LightCentre best = minima.front().end.light;
+  std::vector<RoundEnd> ends, alike;
   for (const Minimum& minimum : minima) ends.push_back(minimum.end);
-  for (int i = 1; i < turns; ++i) {
-    LightCentre& light = turned[static_cast<std::size_t>(i - 1)].light;
-    light = turned_about(*axis, 2 * pi * i / turns, light);
+  const auto add = [&](const LightCentre& light) { alike.emplace_back(minima.front().end).light = light; };
+  for (int i = 0; i < turns; ++i) {
+    const LightCentre turned = turned_about(*axis, 2 * pi * i / turns, best);
+    add(turned), add(mirrored_about(*axis, turned));
   }
-  for (const Minimum& minimum : contest(turned, {3, 2e5, 2e6}, 0.5))
-    ends.push_back(settle(minimum.end.light, rough_stage(minimum.end.light), most_rough_rounds, true));
+  for (const Minimum& minimum : contest(alike, {3, 2e5, 2e6}, 0.5, most_around_string))
+    if (!same_minimum(minimum.end.light, best))
+      ends.push_back(settle(minimum.end.light, rough_stage(minimum.end.light), most_rough_rounds, true));
   return contest(ends, {10, 2e5, 1e7}, 0.2, most_around_string);
 }
 
@@ -280,13 +281,12 @@ Search::End Search::best_of(std::span<const Minimum> minima) {
   }
   if (ends.size() < 2) return ends.front();
   const auto [best, worse] = tell_apart(ends);
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < ends.size(); ++i) {
-    const double value = std::max(0.0, worse[i].value), error = worse[i].error;
-    if (i == best || value >= std::min(nearest, competing + competing_errors * error)) continue;
-    nearest = value;
-    result_.other_minimum = OtherMinimum{cascade_of(ends[i].light, options_.kind), value, error};
-  }
+  std::vector<OtherEnd> others;
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    if (i != best)
+      others.push_back({cascade_of(ends[i].light, options_.kind), worse[i].value, worse[i].error,
+                        ends[i].unsolved && !ends[best].unsolved});
+  result_.other_minimum = competing_minimum(others);
   return ends[best];
 }
 
@@ -294,9 +294,10 @@ Search::End Search::best_of(std::span<const Minimum> minima) {
 // More photons where the first do not decide.
 Search::Ranking Search::tell_apart(std::span<const End> ends) {
   constexpr PhotonNeed first_look{10, 2e6, 1.5e7}, second_look{40, 8e6, 4e7};
+  constexpr double undecided = 3;  // in -ln L
   Ranking ranking = tell_apart(ends, first_look);
   for (std::size_t i = 0; i < ends.size(); ++i)
-    if (i != ranking.best && ranking.worse[i].value < competing) return tell_apart(ends, second_look);
+    if (i != ranking.best && ranking.worse[i].value < undecided) return tell_apart(ends, second_look);
   return ranking;
 }
 

@@ -105,7 +105,8 @@ class Search {
   // all but the first `most`.
   std::vector<Minimum> contest(std::span<const RoundEnd> ends, const PhotonNeed& need, double slack,
                                std::size_t most = 2);
-  // Beside these, where they would be at other azimuths about the only string with light, if there is one.
+  // Beside these, where the best would be at other azimuths about the only string with light, or mirrored in
+  // the plane through the two, if there is one.
   std::vector<Minimum> around_only_string(std::vector<Minimum> minima);
   End from_starts(std::span<const LightCentre> starts);
   End best_of(std::span<const Minimum> minima);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace floe {
 namespace {
@@ -64,6 +65,29 @@ TEST(OtherMinimum, AddsTheWayToTheCovariance) {
   EXPECT_NEAR(both(0, 3), 0.5 * 200, 1e-9);
   EXPECT_NEAR(both(1, 1), 1, 1e-9);
   EXPECT_TRUE(with_other_minimum(local, somewhere(), {other, 60, 0}).isApprox(local, 1e-9));
+}
+
+OtherEnd end_with(double worse, double error, bool unsolved = false) {
+  return {somewhere(), worse, error, unsolved};
+}
+
+TEST(OtherMinimum, IsTheLeastWorseThatCompetes) {
+  EXPECT_FALSE(competing_minimum({}));
+  EXPECT_FALSE(competing_minimum(std::vector{end_with(4.1, 1), end_with(30, 2)}));
+  const auto other = competing_minimum(std::vector{end_with(3.9, 1), end_with(2, 0.1), end_with(2.5, 3)});
+  ASSERT_TRUE(other);
+  EXPECT_EQ(other->delta_neg_llh, 2);
+  EXPECT_EQ(other->delta_neg_llh_error, 0.1);
+  EXPECT_EQ(competing_minimum(std::vector{end_with(-1, 0.5)})->delta_neg_llh, 0);
+}
+
+// Half a chi-square of seven has mean 3.5 and variance 3.5.
+TEST(OtherMinimum, CountsUnsolvedEndsAsAtTheirMinimum) {
+  const auto other = competing_minimum(std::vector{end_with(6, 0, true)});
+  ASSERT_TRUE(other);
+  EXPECT_NEAR(other->delta_neg_llh, 2.5, 1e-12);
+  EXPECT_NEAR(other->delta_neg_llh_error, std::sqrt(3.5), 1e-12);
+  EXPECT_FALSE(competing_minimum(std::vector{end_with(10, 0, true)}));
 }
 
 }  // namespace
