@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "reco/direct_fit/average_place.h"
 #include "reco/direct_fit/calibrated_score.h"
 #include "reco/direct_fit/calibration_stages.h"
 #include "reco/direct_fit/cascade_fit.h"
@@ -89,6 +90,7 @@ class Search {
     double reach = 1, training = 1, judging = 1;  // times the usual
   };
   void calibrate(End& end, CalibrationNeed& need);
+  static std::optional<AveragePlace> walked_about(std::span<const LightCentre> visited);
   End refined(const End& end, CalibrationNeed need);
   std::vector<const LightSample*> enough(const LocalFrame& frame, Stage stage, double photons,
                                          Purpose purpose);

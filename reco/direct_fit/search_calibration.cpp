@@ -4,13 +4,15 @@
 #include <optional>
 
 #include "reco/direct_fit/arrival_bins.h"
+#include "reco/direct_fit/average_place.h"
 #include "reco/direct_fit/design.h"
 #include "reco/direct_fit/search.h"
 
 namespace floe {
 namespace {
 
-constexpr int most_calibrations = 8, most_rounds_without_score = 5;
+constexpr std::size_t most_calibrations = 8;
+constexpr int most_rounds_without_score = 5;
 constexpr double acceptable_pull = 1.5;  // of the last step of all
 // New photons even where there are enough already, and what weights may lose (see InformationBound) before
 // they are taught with more photons, up to so many times the usual.
@@ -22,6 +24,18 @@ constexpr double close_enough = 1.2;                       // last steps, in ste
 constexpr double surely_seen = 4;
 
 }  // namespace
+
+// After all calibrations, when none but the first, on their way, led out of one minimum.
+std::optional<AveragePlace> Search::walked_about(std::span<const LightCentre> visited) {
+  constexpr std::size_t on_their_way = 2;
+  if (visited.size() < most_calibrations) return std::nullopt;
+  const std::span<const LightCentre> places = visited.subspan(on_their_way);
+  const AveragePlace average = average_of(places);
+  const bool together = std::all_of(places.begin(), places.end(), [&](const LightCentre& place) {
+    return same_minimum(place, average.light);
+  });
+  return together ? std::optional(average) : std::nullopt;
+}
 
 Search::End Search::finish(const RoundEnd& rough, std::span<const End> known) {
   End end;
@@ -35,19 +49,27 @@ Search::End Search::finish(const RoundEnd& rough, std::span<const End> known) {
   CalibrationNeed need{{errors.head<3>().norm(), errors.segment<2>(3).norm()}};
   end.unsolved = data_.charge() < worthwhile_charge;
   std::optional<End> found;  // the last solution that stayed near its calibration
-  for (int i = 0; i < most_calibrations && !end.converged && !end.unsolved; ++i) {
+  std::vector<LightCentre> visited;
+  for (std::size_t i = 0; i < most_calibrations && !end.converged && !end.unsolved; ++i) {
     calibrate(end, need);
     if (std::any_of(known.begin(), known.end(), [&](const End& other) {
           return !other.unsolved && same_minimum(end.light, other.light);
         }))
       return end;
     if (end.pull < acceptable_pull) found = end;
+    visited.push_back(end.light);
   }
   if (!end.converged && found) end = *found;
   if (end.converged) end = refined(end, need);
   end.unsolved |= !end.converged && !found;
   if (end.unsolved) {
     end.calibration.reset();
+    if (const std::optional<AveragePlace> average = walked_about(visited)) {
+      end.light = average->light;
+      end.covariance = average->scatter;
+      end.converged = true;
+      return end;
+    }
     // Too little light for the score: the emulator's own minimum and curvature are what is left.
     Stage wide = calibration_stages(data_, end.light, need.errors, need.reach, options_.oversize).wide;
     wide.photons = photons_for(cascade_of(end.light, options_.kind), wide.oversize, {300, 2e6, 2e7});

@@ -1,0 +1,15 @@
+// A step that must stay in a region.
+#pragma once
+
+#include "reco/direct_fit/cascade_parameters.h"
+
+namespace floe {
+
+// Where `slope * step = target` leads within |step| <= `most` (each number of its own): combinations that
+// `information` tells well go all the way, the others as far as the region reaches (Levenberg 1944, Quarterly
+// of Applied Mathematics 2, 164). The whole solution where it lies inside; a scaled solution where
+// `information` is not positive definite. `most` > 0.
+Vector7 limited_step(const Matrix7& slope, const Vector7& target, const Matrix7& information,
+                     const Vector7& most);
+
+}  // namespace floe
