@@ -153,7 +153,7 @@ ScoreSolution solve_calibrated_score(const EventData& data, std::span<const Scor
     if (i >= full_steps) change *= 0.5;  // simulated photons cross the edges of bins one by one
     const Vector7 next = solution.step + change;
     const double length = next.cwiseAbs().cwiseQuotient(most).maxCoeff();
-    solution.step = length > 1 ? limited_step(slope, slope * next, best, most) : next;
+    solution.step = limited_step(next, slope, best, most);
     if (length > 1 && i >= full_steps) {
       solution.leaves = true;
       break;

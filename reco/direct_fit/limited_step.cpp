@@ -1,22 +1,20 @@
 #include "reco/direct_fit/limited_step.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <cmath>
 
 namespace floe {
 
-Vector7 limited_step(const Matrix7& slope, const Vector7& target, const Matrix7& information,
+Vector7 limited_step(const Vector7& step, const Matrix7& slope, const Matrix7& information,
                      const Vector7& most) {
-  const Vector7 whole = slope.partialPivLu().solve(target);
-  const double length = whole.cwiseAbs().cwiseQuotient(most).maxCoeff();
-  if (length <= 1) return whole;
+  const double length = step.cwiseAbs().cwiseQuotient(most).maxCoeff();
+  if (length <= 1) return step;
   const Eigen::LLT<Matrix7> weight(information);
-  if (weight.info() != Eigen::Success) return whole / length;
+  if (weight.info() != Eigen::Success) return step / length;
   // Least squares in units of the region, in which the penalty of leaving is the same for all seven.
   const Matrix7 equations = slope * most.asDiagonal();
   const Matrix7 normal = equations.transpose() * weight.solve(equations);
-  const Vector7 right = equations.transpose() * weight.solve(target);
+  const Vector7 right = equations.transpose() * weight.solve(slope * step);
   const auto damped = [&](double damping) {
     return Vector7((normal + damping * Matrix7::Identity()).ldlt().solve(right));
   };

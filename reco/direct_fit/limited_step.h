@@ -5,11 +5,11 @@
 
 namespace floe {
 
-// Where `slope * step = target` leads within |step| <= `most` (each number of its own): combinations that
-// `information` tells well go all the way, the others as far as the region reaches (Levenberg 1944, Quarterly
-// of Applied Mathematics 2, 164). The whole solution where it lies inside; a scaled solution where
-// `information` is not positive definite. `most` > 0.
-Vector7 limited_step(const Matrix7& slope, const Vector7& target, const Matrix7& information,
+// How much of `step`, the solution of equations with this `slope`, stays within |step| <= `most` (each number
+// of its own): combinations that `information` tells well go all the way, the others as far as the region
+// reaches (Levenberg 1944, Quarterly of Applied Mathematics 2, 164). All of it where it lies inside; scaled
+// where `information` is not positive definite. `most` > 0.
+Vector7 limited_step(const Vector7& step, const Matrix7& slope, const Matrix7& information,
                      const Vector7& most);
 
 }  // namespace floe

@@ -7,8 +7,7 @@
 namespace floe {
 namespace {
 
-// In -ln L: one that is not so much worse competes, nor one that is by less than its error more.
-constexpr double competing = 3, competing_errors = 1;
+constexpr double competing_errors = 1;  // more, where the difference is not known better
 // An end that is about an error off its minimum in each of seven numbers has lost half a chi-square of seven,
 // known to its square root.
 constexpr double lost_by_unsolved = 3.5;
@@ -20,7 +19,7 @@ std::optional<OtherMinimum> competing_minimum(std::span<const OtherEnd> ends) {
   for (const OtherEnd& end : ends) {
     const double lost = end.unsolved ? lost_by_unsolved : 0;
     const double value = std::max(0.0, end.worse - lost), error = std::hypot(end.error, std::sqrt(lost));
-    if (value < competing + competing_errors * error && (!nearest || value < nearest->delta_neg_llh))
+    if (value < competing_neg_llh + competing_errors * error && (!nearest || value < nearest->delta_neg_llh))
       nearest = OtherMinimum{end.cascade, value, error};
   }
   return nearest;

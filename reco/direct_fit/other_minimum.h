@@ -15,6 +15,9 @@ struct OtherMinimum {
   double delta_neg_llh = 0, delta_neg_llh_error = 0;
 };
 
+// In -ln L: ends that are not so much worse than the best compete with it.
+inline constexpr double competing_neg_llh = 3;
+
 // Where a search ended, beside the best.
 struct OtherEnd {
   CascadeParameters cascade;

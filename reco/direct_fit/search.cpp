@@ -238,6 +238,7 @@ std::vector<Search::Minimum> Search::around_only_string(std::vector<Minimum> min
   const LightCentre best = minima.front().end.light;
   std::vector<RoundEnd> ends, alike;
   for (const Minimum& minimum : minima) ends.push_back(minimum.end);
+  // The best is among them, so that what mirrors onto it is no start of its own.
   const auto add = [&](const LightCentre& light) { alike.emplace_back(minima.front().end).light = light; };
   for (int i = 0; i < turns; ++i) {
     const LightCentre turned = turned_about(*axis, 2 * pi * i / turns, best);
@@ -294,10 +295,9 @@ Search::End Search::best_of(std::span<const Minimum> minima) {
 // More photons where the first do not decide.
 Search::Ranking Search::tell_apart(std::span<const End> ends) {
   constexpr PhotonNeed first_look{10, 2e6, 1.5e7}, second_look{40, 8e6, 4e7};
-  constexpr double undecided = 3;  // in -ln L
   Ranking ranking = tell_apart(ends, first_look);
   for (std::size_t i = 0; i < ends.size(); ++i)
-    if (i != ranking.best && ranking.worse[i].value < undecided) return tell_apart(ends, second_look);
+    if (i != ranking.best && ranking.worse[i].value < competing_neg_llh) return tell_apart(ends, second_look);
   return ranking;
 }
 

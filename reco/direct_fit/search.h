@@ -90,6 +90,8 @@ class Search {
     double reach = 1, training = 1, judging = 1;  // times the usual
   };
   void calibrate(End& end, CalibrationNeed& need);
+  // What calibrations that found nothing leave: the mean of where they went, or the emulator's minimum.
+  void end_without_solution(End& end, const CalibrationNeed& need, std::span<const LightCentre> visited);
   static std::optional<AveragePlace> walked_about(std::span<const LightCentre> visited);
   End refined(const End& end, CalibrationNeed need);
   std::vector<const LightSample*> enough(const LocalFrame& frame, Stage stage, double photons,

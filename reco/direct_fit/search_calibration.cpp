@@ -62,25 +62,30 @@ Search::End Search::finish(const RoundEnd& rough, std::span<const End> known) {
   if (!end.converged && found) end = *found;
   if (end.converged) end = refined(end, need);
   end.unsolved |= !end.converged && !found;
-  if (end.unsolved) {
-    end.calibration.reset();
-    if (const std::optional<AveragePlace> average = walked_about(visited)) {
-      end.light = average->light;
-      end.covariance = average->scatter;
-      end.converged = true;
-      return end;
-    }
-    // Too little light for the score: the emulator's own minimum and curvature are what is left.
-    Stage wide = calibration_stages(data_, end.light, need.errors, need.reach, options_.oversize).wide;
-    wide.photons = photons_for(cascade_of(end.light, options_.kind), wide.oversize, {300, 2e6, 2e7});
-    const RoundEnd last = settle(end.light, wide, most_rounds_without_score, true);
-    end.light = last.light;
-    end.covariance = covariance_of(last.fit.information);
-    end.converged = has_settled(last, wide);
-    if (!end.converged) end.trouble = "the data do not determine all seven numbers";
-  }
-  end.converged |= !end.unsolved;
+  if (end.unsolved)
+    end_without_solution(end, need, visited);
+  else
+    end.converged = true;
   return end;
+}
+
+void Search::end_without_solution(End& end, const CalibrationNeed& need,
+                                  std::span<const LightCentre> visited) {
+  end.calibration.reset();
+  if (const std::optional<AveragePlace> average = walked_about(visited)) {
+    end.light = average->light;
+    end.covariance = average->scatter;
+    end.converged = true;
+    return;
+  }
+  // Too little light for the score: the emulator's own minimum and curvature are what is left.
+  Stage wide = calibration_stages(data_, end.light, need.errors, need.reach, options_.oversize).wide;
+  wide.photons = photons_for(cascade_of(end.light, options_.kind), wide.oversize, {300, 2e6, 2e7});
+  const RoundEnd last = settle(end.light, wide, most_rounds_without_score, true);
+  end.light = last.light;
+  end.covariance = covariance_of(last.fit.information);
+  end.converged = has_settled(last, wide);
+  if (!end.converged) end.trouble = "the data do not determine all seven numbers";
 }
 
 // The last calibration once more with more photons: what their noise adds to the errors is the largest share

@@ -26,14 +26,14 @@ Vector7 step_to(double sum, double difference) {
 
 TEST(LimitedStep, IsTheWholeStepInside) {
   const Vector7 inside = step_to(0.3, 1.2);
-  const Vector7 step = limited_step(information(), information() * inside, information(), Vector7::Ones());
+  const Vector7 step = limited_step(inside, information(), information(), Vector7::Ones());
   EXPECT_LT((step - inside).norm(), 1e-9);
 }
 
 // A scaled step would take a tenth of what is known well, too.
 TEST(LimitedStep, GoesAllTheWayWhereTheDataTell) {
   const Vector7 outside = step_to(0.3, 20);
-  const Vector7 step = limited_step(information(), information() * outside, information(), Vector7::Ones());
+  const Vector7 step = limited_step(outside, information(), information(), Vector7::Ones());
   EXPECT_NEAR(step.cwiseAbs().maxCoeff(), 1, 1e-6);
   EXPECT_NEAR(std::abs(step(0) + step(1)), 0.3, 1e-3);
   EXPECT_GT(step(0) - step(1), 1);
@@ -43,7 +43,7 @@ TEST(LimitedStep, GoesAllTheWayWhereTheDataTell) {
 
 TEST(LimitedStep, ScalesWithoutInformation) {
   const Vector7 outside = step_to(0, 20);
-  const Vector7 step = limited_step(Matrix7::Identity(), outside, Matrix7::Zero(), Vector7::Ones());
+  const Vector7 step = limited_step(outside, Matrix7::Identity(), Matrix7::Zero(), Vector7::Ones());
   EXPECT_LT((step - outside / 10).norm(), 1e-12);
 }
 
