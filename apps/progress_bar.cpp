@@ -14,6 +14,7 @@ namespace {
 
 constexpr double quiet_seconds = 2;      // shorter work shows no bar
 constexpr double seconds_a_frame = 0.1;  // fast enough to look alive, slow enough to cost nothing
+constexpr double seconds_a_log_line = 60;
 
 int terminal_columns() {
   winsize size{};
@@ -27,21 +28,33 @@ std::string duration(double seconds) {
   return fmt::format("{}:{:02} h", whole / 3600, whole % 3600 / 60);
 }
 
+double share_of(double fraction) {
+  return std::clamp(std::isfinite(fraction) ? fraction : 0.0, 0.0, 1.0);
+}
+
+std::string percent_and_stage(double fraction, const std::string& stage, double seconds) {
+  // Too early a guess is worse than none.
+  const std::string left = fraction > 0.02 ? duration(seconds * (1 - fraction) / fraction) + " left  " : "";
+  return fmt::format("{:3.0f}%  {}{}", 100 * fraction, left, stage);
+}
+
 }  // namespace
 
 std::string progress_line(double fraction, const std::string& stage, double seconds, int columns) {
   constexpr int width = 24;
-  fraction = std::clamp(std::isfinite(fraction) ? fraction : 0.0, 0.0, 1.0);
+  fraction = share_of(fraction);
   const int full = static_cast<int>(fraction * width);
-  // Too early a guess is worse than none.
-  const std::string left = fraction > 0.02 ? duration(seconds * (1 - fraction) / fraction) + " left  " : "";
-  const std::string line = fmt::format("[{}{}] {:3.0f}%  {}{}", std::string(full, '='),
-                                       std::string(width - full, ' '), 100 * fraction, left, stage);
+  const std::string line = fmt::format("[{}{}] {}", std::string(full, '='), std::string(width - full, ' '),
+                                       percent_and_stage(fraction, stage, seconds));
   return line.substr(0, std::max(0, columns - 1));
 }
 
+std::string progress_log_line(double fraction, const std::string& stage, double seconds) {
+  return percent_and_stage(share_of(fraction), stage, seconds);
+}
+
 ProgressBar::ProgressBar(bool quiet)
-    : active_(!quiet && isatty(STDERR_FILENO) == 1), start_(Clock::now()), last_drawn_(start_) {}
+    : active_(!quiet), on_terminal_(isatty(STDERR_FILENO) == 1), start_(Clock::now()), last_shown_(start_) {}
 
 ProgressBar::~ProgressBar() {
   if (drawn_) fmt::print(stderr, "\r\033[K");
@@ -57,11 +70,17 @@ void ProgressBar::update(double fraction, const std::string& stage) {
   const auto since = [now](Clock::time_point then) {
     return std::chrono::duration<double>(now - then).count();
   };
-  if (since(start_) < quiet_seconds || since(last_drawn_) < seconds_a_frame) return;
-  fmt::print(stderr, "\r\033[K{}", progress_line(fraction, stage, since(start_), terminal_columns()));
+  if (since(start_) < quiet_seconds ||
+      since(last_shown_) < (on_terminal_ ? seconds_a_frame : seconds_a_log_line))
+    return;
+  if (on_terminal_) {
+    fmt::print(stderr, "\r\033[K{}", progress_line(fraction, stage, since(start_), terminal_columns()));
+    drawn_ = true;
+  } else {
+    fmt::print(stderr, "{}\n", progress_log_line(fraction, stage, since(start_)));
+  }
   std::fflush(stderr);
-  last_drawn_ = now;
-  drawn_ = true;
+  last_shown_ = now;
 }
 
 }  // namespace floe

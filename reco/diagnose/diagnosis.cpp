@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -26,7 +25,6 @@ constexpr std::size_t most_trials = 3;
 constexpr double hits_of_contest = 6e4;  // of each run, at least: rivals are alike
 constexpr double confirmed_share = 0.4;  // of the gain that a score promised, by a fit
 constexpr int rounds = 4, rounds_of_layers = 7, rounds_of_folds = 3, rounds_of_contest = 5;
-constexpr double still_there = 3;  // standard deviations, of effects when another one has come in
 
 void check_options(const DiagnosisOptions& options, std::size_t runs) {
   check(static_cast<const RunSettings&>(options));
@@ -44,15 +42,10 @@ double normal_tail(double z) {
   return std::erfc(z / std::sqrt(2.0)) / 2;
 }
 
-// Which parameters of a joint fit belong to one effect.
-struct Span {
-  std::size_t first, count;
-};
-
 class Diagnoser {
  public:
   Diagnoser(const Model& base, FlasherData data, const DiagnosisOptions& options, const Progress& progress)
-      : base_(base), data_(std::move(data)), options_(options), progress_(progress) {}
+      : base_(base), data_(std::move(data)), options_(options), progress_(progress), accepted_(base) {}
 
   Diagnosis run() {
     stage(0, 0.03, "first look");
@@ -62,7 +55,7 @@ class Diagnoser {
     judge_.emplace(base_, data_, look_, options_, judge_stream);
     bool unexplained = false;
     for (int step = 0;; ++step) {
-      const bool gap = look_at(current(), step);
+      const bool gap = look_at(accepted_.model(), step);
       DiagnosisStep& now = result_.steps.back();
       const bool added = gap && step < options_.most_effects && add_effect(now, step);
       // A score that no fit to fresh light confirms is none.
@@ -80,8 +73,6 @@ class Diagnoser {
   RunRequest request(std::size_t r, double photons) const {
     return request_of(data_.runs[r], options_, photons, look_stream + r);
   }
-
-  Model current() const { return with_parameters(base_, parameters_, numbers_); }
 
   void stage(double from, double to, const std::string& text) {
     from_ = from, to_ = to, text_ = text;
@@ -160,14 +151,6 @@ class Diagnoser {
     return sum;
   }
 
-  // All that is in the model already, and this suspect.
-  std::vector<IceParameter> with(const std::vector<IceParameter>& more) const {
-    std::vector<IceParameter> all = parameters_;
-    for (std::size_t i = 0; i < all.size(); ++i) all[i].begin_at(numbers_[i]);
-    all.insert(all.end(), more.begin(), more.end());
-    return all;
-  }
-
   // Fits the leading suspects and adds the best, when its fit confirms what its score said.
   bool add_effect(DiagnosisStep& now, int step) {
     if (now.scores.effects.empty() || now.scores.p_value >= options_.alpha / 2) return false;
@@ -178,7 +161,7 @@ class Diagnoser {
     hold_contest(
         base_, judge_->noise_of_differences(),
         [this](const auto& parameters) {
-          return fit(data_, with(parameters), rounds_of_contest, hits_of_contest);
+          return fit(data_, accepted_.parameters(parameters), rounds_of_contest, hits_of_contest);
         },
         candidates);
     for (const Candidate& candidate : candidates) now.trials.push_back(candidate.trial);
@@ -192,7 +175,7 @@ class Diagnoser {
     const double from = begin(step), length = begin(step + 1) - from;
     for (const EffectScore& score : now.scores.effects) {
       const Score& suspect = score.best;
-      if (!leads(score, now.scores) || candidates.size() == most_trials || is_in_the_model(suspect.suspect))
+      if (!leads(score, now.scores) || candidates.size() == most_trials || accepted_.has(suspect.suspect))
         continue;
       const double done = 0.4 + 0.4 * static_cast<double>(candidates.size()) / most_trials;
       stage(from + length * done, from + length * (done + 0.13), "fitting " + text_of(suspect.suspect));
@@ -210,9 +193,9 @@ class Diagnoser {
     Trial& trial = candidate.trial;
     trial.suspect = score.suspect;
     trial.parameters = fit_parameters(score.suspect, score.amplitudes, base_);
-    candidate.fit = fit(data_, with(trial.parameters), rounds);
+    candidate.fit = fit(data_, accepted_.parameters(trial.parameters), rounds);
     trial.neg_llh = neg_llh_of_all(with_parameters(base_, candidate.fit.parameters, candidate.fit.numbers));
-    trial.chi_square = chi_square_of(trial, candidate.fit, parameters_.size(), base_);
+    trial.chi_square = chi_square_of(trial, candidate.fit, accepted_.parameter_count(), base_);
     return candidate;
   }
 
@@ -230,13 +213,6 @@ class Diagnoser {
                          [&](const EffectScore& score) { return score.best.suspect.effect == winner; });
   }
 
-  // A plain effect has one value in a model.
-  bool is_in_the_model(const Suspect& suspect) const {
-    return std::any_of(result_.effects.begin(), result_.effects.end(), [&](const NamedEffect& e) {
-      return e.suspect.effect == suspect.effect && (suspect.place.empty() || suspect.place.count("depth"));
-    });
-  }
-
   void accept(DiagnosisStep& now, const IceFit& fit) {
     const Trial& trial = now.trials.front();
     NamedEffect named;
@@ -249,58 +225,25 @@ class Diagnoser {
       if (separation.effect == named.group.front() && contains(named.group, separation.other))
         named.separations.push_back(separation);
     named.significance = std::sqrt(trial.chi_square);
-    spans_.push_back({parameters_.size(), trial.parameters.size()});
-    result_.effects.push_back(std::move(named));
-    take(fit);
-    now.added = result_.effects.size() - 1;
+    accepted_.add(std::move(named), fit);
+    now.added = accepted_.effects().size() - 1;
     retest();
-    if (result_.effects.back().suspect.effect == "birefringence") refine_by_layers();
+    if (accepted_.effects().back().suspect.effect == "birefringence") refine_by_layers();
   }
 
   // Grains differ from layer to layer, and with them the strength of birefringence (arXiv:2107.08692).
   void refine_by_layers() {
-    const Span span = spans_.back();
     const DepthRange range = layers_of(flasher_depths(data_, *base_.detector), data_.runs.size());
     if (range.groups < 2) return;
     stage(from_, to_, "fitting birefringence layer by layer");
-    std::vector<IceParameter> layered = with({});
-    const double strength = numbers_[span.first];
-    layered.resize(span.first);
-    for (IceParameter& layer : layer_parameters(LayerFamily::birefringence, range)) {
-      layer.start = std::log(std::max(0.1, strength));
-      layered.push_back(std::move(layer));
-    }
     try {
-      const IceFit fit = this->fit(data_, layered, rounds_of_layers);
-      if (spread_of_layers(fit, span.first) < 2 * (range.groups - 1)) return;
-      spans_.back().count = layered.size() - span.first;
-      NamedEffect& effect = result_.effects.back();
-      effect.parameters.assign(layered.begin() + static_cast<std::ptrdiff_t>(span.first), layered.end());
-      take(fit);
+      const IceFit layered =
+          fit(data_, accepted_.parameters_by_layers(LayerFamily::birefringence, range), rounds_of_layers);
+      const double least_spread = 2 * (range.groups - 1);
+      if (accepted_.spread_of_layers(layered) >= least_spread) accepted_.take_layers(layered);
     } catch (const Error&) {
       // Some layer scatters too little for so strong crystals: one strength for all stays.
     }
-  }
-  // Chi-square of the layers, from `first` to the last parameter, about what is best for all of them.
-  static double spread_of_layers(const IceFit& fit, std::size_t first) {
-    const auto at = static_cast<Eigen::Index>(first);
-    const auto size = static_cast<Eigen::Index>(fit.numbers.size()) - at;
-    const Eigen::VectorXd weights =
-        fit.covariance.block(at, at, size, size).ldlt().solve(Eigen::VectorXd::Ones(size));
-    double mean = 0;
-    for (Eigen::Index i = 0; i < size; ++i)
-      mean += weights(i) / weights.sum() * fit.numbers[first + static_cast<std::size_t>(i)];
-    return fit.distance(first, std::vector<double>(static_cast<std::size_t>(size), mean));
-  }
-  bool is_layered(const NamedEffect& effect) const { return !effect.parameters.front().family.empty(); }
-
-  void take_mean(const Span& span, const IceFit& fit, NamedEffect& effect) const {
-    const auto count = static_cast<Eigen::Index>(span.count), first = static_cast<Eigen::Index>(span.first);
-    Eigen::VectorXd share(count);
-    for (Eigen::Index i = 0; i < count; ++i)
-      share(i) = effect.values[static_cast<std::size_t>(i)] / static_cast<double>(count);
-    effect.mean = {"strength", share.sum(),
-                   std::sqrt(share.dot(fit.covariance.block(first, first, count, count) * share))};
   }
 
   // Whether this might as well be what is missing as the winner of the contest.
@@ -314,123 +257,65 @@ class Diagnoser {
     return is_inseparable(score_of_winner(now), leader) && is_inseparable(other, leader);
   }
 
-  void take(const IceFit& fit) {
-    parameters_ = fit.parameters;
-    numbers_ = fit.numbers;
-    for (std::size_t e = 0; e < spans_.size(); ++e) {
-      NamedEffect& effect = result_.effects[e];
-      effect.values.clear(), effect.errors.clear();
-      for (std::size_t i = spans_[e].first; i < spans_[e].first + spans_[e].count; ++i) {
-        effect.values.push_back(fit.value(i));
-        effect.errors.push_back(fit.error(i));
-      }
-      if (is_layered(effect) && effect.parameters.front().logarithmic) take_mean(spans_[e], fit, effect);
-    }
-  }
-
   // A new effect may explain an earlier one away.
   void retest() {
-    for (std::size_t e = 0; e + 1 < result_.effects.size(); ++e) {
-      const NamedEffect& effect = result_.effects[e];
-      if (effect.suspect.place.count("depth") || is_layered(effect)) continue;
-      double most = 0;
-      for (std::size_t i = 0; i < effect.values.size(); ++i)
-        most = std::max(
-            most, std::abs(effect.values[i] - null_number(effect.parameters[i], base_)) / effect.errors[i]);
-      if (most >= still_there) continue;
-      result_.remarks.push_back(fmt::format("{} was given up when {} came in: {:.1f} standard deviations",
-                                            text_of(effect.suspect), text_of(result_.effects.back().suspect),
-                                            most));
-      drop(e);
-      return;
-    }
-  }
-  void drop(std::size_t e) {
-    const Span span = spans_[e];
-    const auto cut = [&](auto& all) {
-      const auto first = all.begin() + static_cast<std::ptrdiff_t>(span.first);
-      all.erase(first, first + static_cast<std::ptrdiff_t>(span.count));
-    };
-    cut(parameters_), cut(numbers_);
-    spans_.erase(spans_.begin() + static_cast<std::ptrdiff_t>(e));
-    for (Span& later : spans_)
-      if (later.first > span.first) later.first -= span.count;
-    result_.effects.erase(result_.effects.begin() + static_cast<std::ptrdiff_t>(e));
+    const std::optional<AcceptedEffects::Faded> faded = accepted_.faded();
+    if (!faded) return;
+    const std::vector<NamedEffect>& effects = accepted_.effects();
+    result_.remarks.push_back(fmt::format("{} was given up when {} came in: {:.1f} standard deviations",
+                                          text_of(effects[faded->effect].suspect),
+                                          text_of(effects.back().suspect), faded->sigmas));
+    accepted_.drop(faded->effect);
     for (DiagnosisStep& step : result_.steps)
-      if (step.added && *step.added >= e) {
-        if (*step.added == e)
-          step.added.reset();
-        else
-          --*step.added;
-      }
+      if (step.added == faded->effect)
+        step.added.reset();
+      else if (step.added && *step.added > faded->effect)
+        --*step.added;
+  }
+  void give_up_everything(const std::string& why) {
+    for (const NamedEffect& effect : accepted_.effects())
+      result_.remarks.push_back(fmt::format("{} was given up: {}", text_of(effect.suspect), why));
+    accepted_.clear();
+    for (DiagnosisStep& step : result_.steps) step.added.reset();
   }
 
-  // Each run judged by a model that was fitted to other runs.
   void finish(bool unexplained) {
     // Where all that may be added still leaves a gap, each has taken a part of what none of them is.
-    const auto named = static_cast<int>(result_.effects.size());
+    const auto named = static_cast<int>(accepted_.effects().size());
     if (unexplained && named == options_.most_effects && named > 1)
       give_up_everything(fmt::format("{} effects together leave a gap, and none of them names it", named));
-    result_.improved = current();
-    RunSettings settings = options_;
-    settings.light.light *= light_of_gap;
-    settings.light.least_hits *= light_of_gap;
-    const ModelJudge judge(base_, data_, look_, settings, gap_stream);
-    const auto gap = [&](const Model& model, std::size_t r) {
-      const ModelJudge::Fit fit = judge.judge(model, r);
-      return 2 * (fit.measured.neg_llh - fit.expected);
-    };
-    for (std::size_t r = 0; r < data_.runs.size(); ++r) {
-      const double before = gap(base_, r);
-      result_.gaps.push_back({data_.runs[r].name, before, before});
-    }
-    const int folds = parameters_.empty() ? 0 : options_.folds;
-    const HeldOutRuns held_out(data_, *base_.detector, options_.folds);
-    for (int fold = 0; fold < folds; ++fold) {
-      stage(0.9 + 0.1 * fold / folds, 0.9 + 0.1 * (fold + 1) / folds, "holding runs out");
-      const Model model = folds == 1 ? result_.improved : fitted_to(held_out.rest(data_, fold));
-      for (std::size_t r = 0; r < data_.runs.size(); ++r)
-        if (held_out.holds(r, fold)) result_.gaps[r].after = gap(model, r);
-    }
-    for (const RunGap& run : result_.gaps) result_.gap_before += run.before, result_.gap_after += run.after;
+    measure_gaps();
     if (result_.gap_after > result_.gap_before) {
       // What makes light worse that the fit has not seen is not what is missing.
       give_up_everything("runs that were held out fit worse with it");
       for (RunGap& run : result_.gaps) run.after = run.before;
       result_.gap_after = result_.gap_before;
-      result_.improved = base_;
       unexplained = result_.steps.front().p_of_fit < options_.alpha / 2;
     }
+    result_.improved = accepted_.model();
+    result_.effects = accepted_.effects();
     for (const NamedEffect& effect : result_.effects) result_.verdict.push_back(effect.suspect.effect);
     if (unexplained) result_.verdict.push_back("unexplained");
-    for (const NamedEffect& effect : result_.effects)
-      if (!is_of_ice(effect)) result_.beside_ice.push_back(settings_of(effect));
+    result_.beside_ice = accepted_.beside_ice();
   }
-  void give_up_everything(const std::string& why) {
-    for (const NamedEffect& effect : result_.effects)
-      result_.remarks.push_back(fmt::format("{} was given up: {}", text_of(effect.suspect), why));
-    result_.effects.clear(), spans_.clear(), parameters_.clear(), numbers_.clear();
-    for (DiagnosisStep& step : result_.steps) step.added.reset();
-  }
-  std::vector<EffectSetting> settings_of(const NamedEffect& effect) const {
-    std::vector<EffectSetting> settings;
-    for (const auto& [name, value] : effect.suspect.place)
-      if (name == "string" || name == "dom") settings.push_back({effect.suspect.effect, name, value});
-    for (std::size_t i = 0; i < effect.values.size(); ++i) {
-      const std::string& name = effect.parameters[i].name;
-      settings.push_back({effect.suspect.effect, name.substr(name.find('.') + 1), effect.values[i]});
-    }
-    return settings;
-  }
-  // Whether it changes the ice's tables, and nothing else.
-  bool is_of_ice(const NamedEffect& effect) const {
-    if (is_layered(effect)) return true;
-    ModelParts parts = parts_of(base_);
-    apply_effects(settings_of(effect), parts);
-    return freeze(std::move(parts)).ice->hash() != base_.ice->hash();
+
+  void measure_gaps() {
+    RunSettings settings = options_;
+    settings.light.light *= light_of_gap;
+    settings.light.least_hits *= light_of_gap;
+    const ModelJudge judge(base_, data_, look_, settings, gap_stream);
+    result_.gaps = gaps_of(base_, data_, judge);
+    const HeldOutRuns held_out(data_, *base_.detector, options_.folds);
+    const auto model_without = [&](int fold) {
+      const int folds = held_out.folds();
+      stage(0.9 + 0.1 * fold / folds, 0.9 + 0.1 * (fold + 1) / folds, "holding runs out");
+      return folds == 1 ? accepted_.model() : fitted_to(held_out.rest(data_, fold));
+    };
+    if (!accepted_.empty()) hold_out(held_out, judge, model_without, result_.gaps);
+    for (const RunGap& run : result_.gaps) result_.gap_before += run.before, result_.gap_after += run.after;
   }
   Model fitted_to(const FlasherData& rest) {
-    const IceFit blind = fit(rest, with({}), rounds_of_folds);
+    const IceFit blind = fit(rest, accepted_.parameters(), rounds_of_folds);
     return with_parameters(base_, blind.parameters, blind.numbers);
   }
 
@@ -444,10 +329,7 @@ class Diagnoser {
   const Progress& progress_;
   FirstLook look_;
   std::optional<ModelJudge> judge_;
-  // Of all effects that were added, fitted together.
-  std::vector<IceParameter> parameters_;
-  std::vector<double> numbers_;
-  std::vector<Span> spans_;              // by effect
+  AcceptedEffects accepted_;
   std::vector<Separation> separations_;  // of the last look's leading effects, each from each other
   double from_ = 0, to_ = 1;
   std::string text_;

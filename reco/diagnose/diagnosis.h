@@ -9,9 +9,10 @@
 #include "data/base/progress.h"
 #include "propagation/effects_file.h"
 #include "propagation/model.h"
+#include "reco/diagnose/accepted_effects.h"
 #include "reco/diagnose/contest.h"
+#include "reco/diagnose/held_out_gaps.h"
 #include "reco/diagnose/score_test.h"
-#include "reco/diagnose/separation.h"
 #include "reco/diagnose/where.h"
 #include "reco/ice_fit/ice_fit.h"
 #include "reco/ice_fit/run_data.h"
@@ -36,26 +37,6 @@ struct DiagnosisStep {
   Whereabouts where;
   std::vector<Trial> trials;    // of the leading suspects, the best first
   std::optional<size_t> added;  // of Diagnosis::effects; none: nothing was
-};
-
-struct NamedEffect {
-  Suspect suspect;
-  std::vector<IceParameter> parameters;
-  std::vector<double> values, errors;
-  // The mean over layers, where the effect was refined layer by layer; by the effect's own parameter's name.
-  struct Mean {
-    std::string name;
-    double value = 0, error = 0;
-  };
-  std::optional<Mean> mean;
-  double significance = 0;                   // standard deviations
-  std::vector<std::string> group;            // effects that the data cannot tell from it, itself first
-  std::vector<Separation> separations = {};  // what would tell it from each of the others
-};
-
-struct RunGap {
-  std::string run;
-  double before = 0, after = 0;  // deviance above what it would be on average if the model were true
 };
 
 struct Diagnosis {

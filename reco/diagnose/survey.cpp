@@ -7,9 +7,9 @@
 #include <cmath>
 #include <map>
 #include <random>
-#include <set>
 
 #include "reco/diagnose/displaced_strings.h"
+#include "reco/diagnose/place_columns.h"
 #include "reco/ice_fit/ice_point.h"
 #include "reco/ice_fit/smooth_slopes.h"
 
@@ -19,88 +19,15 @@ namespace {
 
 constexpr std::uint64_t first_stream = std::uint64_t{1} << 42, streams_a_run = 1 << 10,
                         streams_a_survey = 1 << 20;
-// Strings and modules with less light, in counts of the data, are not looked at one by one.
-constexpr double light_of_string = 300, light_of_module = 150;
 
 using Kind = SurveyColumn::Kind;
-
-// Light by string and by module over all runs, as counts of the data.
-struct LightByPlace {
-  std::map<int, double> strings;
-  std::map<ModuleId, double> modules;
-};
-LightByPlace light_by_place(const Survey& survey, const Detector& detector) {
-  LightByPlace light;
-  for (const SurveyRun& run : survey.runs)
-    for (const RunBins::Receiver& receiver : run.bins.receivers()) {
-      const ModuleId id = detector.modules()[receiver.module].id;
-      const double counts = run.expected.segment(receiver.first, receiver.bins()).sum();
-      light.strings[id.string] += counts;
-      light.modules[id] += counts;
-    }
-  return light;
-}
-
-std::vector<SurveyColumn> place_columns(const LightByPlace& light) {
-  std::vector<SurveyColumn> columns;
-  for (const auto& [string, counts] : light.strings) {
-    if (counts < light_of_string) continue;
-    for (const Kind kind :
-         {Kind::string_efficiency, Kind::string_time, Kind::string_x, Kind::string_y, Kind::string_z})
-      columns.push_back({kind, 0, string, 0});
-  }
-  for (const auto& [id, counts] : light.modules)
-    if (counts >= light_of_module) columns.push_back({Kind::module_efficiency, 0, id.string, id.dom});
-  return columns;
-}
 
 // Slopes of ln(light) in a run's bins, of one fold.
 struct RunSlopes {
   Eigen::MatrixXd parameters;  // bins x parameters
   Eigen::MatrixXd raw;         // the same, as simulated: right on average, but noisy
-  Eigen::MatrixXd places;      // bins x 3: all strings but the flasher's own moved along x, y, z
-  Eigen::VectorXd delay;
+  PlaceSlopes places;
 };
-
-bool is_displacement(Kind kind) {
-  return kind == Kind::string_x || kind == Kind::string_y || kind == Kind::string_z;
-}
-
-// Of a change of one place: nothing in the bins of all others.
-Eigen::VectorXd place_slope(const SurveyColumn& column, const SurveyRun& run, const RunSlopes& slopes,
-                            const Detector& detector) {
-  Eigen::VectorXd slope = Eigen::VectorXd::Zero(run.bins.size());
-  const bool own_string = run.data.run.module.string == column.string;
-  for (const RunBins::Receiver& receiver : run.bins.receivers()) {
-    const ModuleId id = detector.modules()[receiver.module].id;
-    auto of_receiver = slope.segment(receiver.first, receiver.bins());
-    const bool here = id.string == column.string;
-    switch (column.kind) {
-      case Kind::parameter:
-        break;
-      case Kind::module_efficiency:
-        if (here && id.dom == column.dom) of_receiver.setOnes();
-        break;
-      case Kind::string_efficiency:
-        if (here) of_receiver.setOnes();
-        break;
-      case Kind::string_time:
-        if (here) of_receiver = slopes.delay.segment(receiver.first, receiver.bins());
-        break;
-      case Kind::string_x:
-      case Kind::string_y:
-      case Kind::string_z: {
-        const int axis = static_cast<int>(column.kind) - static_cast<int>(Kind::string_x);
-        const auto moved = slopes.places.col(axis).segment(receiver.first, receiver.bins());
-        // With the flasher's own string, all others move the other way for it.
-        if (own_string && !here) of_receiver = -moved;
-        if (!own_string && here) of_receiver = moved;
-        break;
-      }
-    }
-  }
-  return slope;
-}
 
 // Slopes without what brightness and time zero could do.
 Eigen::MatrixXd projected(const Eigen::MatrixXd& slopes, const Eigen::MatrixXd& nuisance,
@@ -127,7 +54,7 @@ class Surveyor {
     for (std::size_t p = 0; p < plan_.parameters.size(); ++p)
       survey_.columns.push_back({Kind::parameter, p, 0, 0});
     if (plan_.places) {
-      const auto places = place_columns(light_by_place(survey_, detector()));
+      const std::vector<SurveyColumn> places = place_columns(survey_.runs, detector());
       survey_.columns.insert(survey_.columns.end(), places.begin(), places.end());
     }
     add_up();
@@ -200,7 +127,7 @@ class Surveyor {
       const DisplacedStrings displaced =
           displaced_strings(point_.model(), other, run.bins, time_zero, light, plan_.pair_light / 2);
       survey_.photons += displaced.propagated;
-      for (std::size_t fold = 0; fold < 2; ++fold) slopes[fold].places = displaced.fold[fold];
+      for (std::size_t fold = 0; fold < 2; ++fold) slopes[fold].places.displacement = displaced.fold[fold];
     }
     const Eigen::ArrayXd both = run.counts.simulated[0] + run.counts.simulated[1];
     run.expected = run.scale * both;
@@ -209,7 +136,7 @@ class Surveyor {
     run.nuisance.resize(run.bins.size(), 2);
     run.nuisance << Eigen::VectorXd::Ones(run.bins.size()), delay.matrix();
     for (RunSlopes& fold : slopes) {
-      fold.delay = delay.matrix();
+      fold.places.delay = delay.matrix();
       slopes_.push_back(std::move(fold));
     }
   }
@@ -227,7 +154,8 @@ class Surveyor {
         Eigen::MatrixXd all(run.bins.size(), size);
         all.leftCols(parameters) = slopes.parameters;
         for (Eigen::Index c = parameters; c < size; ++c)
-          all.col(c) = place_slope(survey_.columns[static_cast<std::size_t>(c)], run, slopes, detector());
+          all.col(c) =
+              place_slope(survey_.columns[static_cast<std::size_t>(c)], run, slopes.places, detector());
         run.halves[fold] = projected(all, run.nuisance, run.trust * run.expected);
       }
       set_weights(run);

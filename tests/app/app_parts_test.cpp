@@ -75,6 +75,7 @@ TEST(ProgressLine, ShowsStagePercentAndTimeLeft) {
 TEST(ProgressLine, SaysNoTimeLeftTooEarlyAndNeverWraps) {
   EXPECT_EQ(progress_line(0.01, "seed", 3, 80).find("left"), std::string::npos);
   EXPECT_EQ(progress_line(0.5, std::string(200, 'x'), 3, 80).size(), 79u);
+  EXPECT_EQ(progress_log_line(0.25, "fitting", 30), " 25%  1:30 min left  fitting");
 }
 
 TEST(PlannedOutput, AppearsOnlyWhenCommitted) {

@@ -1,0 +1,154 @@
+#include "reco/diagnose/accepted_effects.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace floe {
+
+namespace {
+
+constexpr double still_there = 3;  // standard deviations
+
+bool is_layered(const NamedEffect& effect) {
+  return !effect.parameters.front().family.empty();
+}
+
+// As `floe.toml` has it: places that are no parameters of a fit, and values.
+std::vector<EffectSetting> settings_of(const NamedEffect& effect) {
+  std::vector<EffectSetting> settings;
+  for (const auto& [name, value] : effect.suspect.place)
+    if (name == "string" || name == "dom") settings.push_back({effect.suspect.effect, name, value});
+  for (std::size_t i = 0; i < effect.values.size(); ++i) {
+    const std::string& name = effect.parameters[i].name;
+    settings.push_back({effect.suspect.effect, name.substr(name.find('.') + 1), effect.values[i]});
+  }
+  return settings;
+}
+
+}  // namespace
+
+bool AcceptedEffects::has(const Suspect& suspect) const {
+  return std::any_of(effects_.begin(), effects_.end(), [&](const NamedEffect& e) {
+    return e.suspect.effect == suspect.effect && (suspect.place.empty() || suspect.place.count("depth"));
+  });
+}
+
+std::vector<IceParameter> AcceptedEffects::parameters(const std::vector<IceParameter>& more) const {
+  std::vector<IceParameter> all = parameters_;
+  for (std::size_t i = 0; i < all.size(); ++i) all[i].begin_at(numbers_[i]);
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+void AcceptedEffects::add(NamedEffect effect, const IceFit& fit) {
+  effects_.push_back(std::move(effect));
+  take(fit);
+}
+
+std::vector<IceParameter> AcceptedEffects::parameters_by_layers(LayerFamily family,
+                                                                const DepthRange& range) const {
+  constexpr double least = 0.1;  // layers are factors, and begin at one that can grow
+  const std::size_t first = first_parameter(effects_.size() - 1);
+  std::vector<IceParameter> all = parameters();
+  all.resize(first);
+  for (IceParameter& layer : layer_parameters(family, range)) {
+    layer.start = std::log(std::max(least, numbers_[first]));
+    all.push_back(std::move(layer));
+  }
+  return all;
+}
+
+double AcceptedEffects::spread_of_layers(const IceFit& fit) const {
+  const std::size_t first = first_parameter(effects_.size() - 1);
+  const auto at = static_cast<Eigen::Index>(first);
+  const auto size = static_cast<Eigen::Index>(fit.numbers.size()) - at;
+  const Eigen::VectorXd weights =
+      fit.covariance.block(at, at, size, size).ldlt().solve(Eigen::VectorXd::Ones(size));
+  double mean = 0;
+  for (Eigen::Index i = 0; i < size; ++i)
+    mean += weights(i) / weights.sum() * fit.numbers[first + static_cast<std::size_t>(i)];
+  return fit.distance(first, std::vector<double>(static_cast<std::size_t>(size), mean));
+}
+
+void AcceptedEffects::take_layers(const IceFit& fit) {
+  const std::size_t first = first_parameter(effects_.size() - 1);
+  effects_.back().parameters.assign(fit.parameters.begin() + static_cast<std::ptrdiff_t>(first),
+                                    fit.parameters.end());
+  take(fit);
+}
+
+std::optional<AcceptedEffects::Faded> AcceptedEffects::faded() const {
+  for (std::size_t e = 0; e + 1 < effects_.size(); ++e) {
+    const NamedEffect& effect = effects_[e];
+    if (effect.suspect.place.count("depth") || is_layered(effect)) continue;
+    double most = 0;
+    for (std::size_t i = 0; i < effect.values.size(); ++i)
+      most = std::max(
+          most, std::abs(effect.values[i] - null_number(effect.parameters[i], base_)) / effect.errors[i]);
+    if (most < still_there) return Faded{e, most};
+  }
+  return {};
+}
+
+void AcceptedEffects::drop(std::size_t effect) {
+  const auto cut = [first = static_cast<std::ptrdiff_t>(first_parameter(effect)),
+                    count = static_cast<std::ptrdiff_t>(effects_[effect].parameters.size())](auto& all) {
+    all.erase(all.begin() + first, all.begin() + first + count);
+  };
+  cut(parameters_), cut(numbers_);
+  effects_.erase(effects_.begin() + static_cast<std::ptrdiff_t>(effect));
+}
+
+void AcceptedEffects::clear() {
+  effects_.clear(), parameters_.clear(), numbers_.clear();
+}
+
+EffectGroups AcceptedEffects::beside_ice() const {
+  EffectGroups groups;
+  for (const NamedEffect& effect : effects_)
+    if (!is_of_ice(effect)) groups.push_back(settings_of(effect));
+  return groups;
+}
+
+std::size_t AcceptedEffects::first_parameter(std::size_t effect) const {
+  std::size_t first = 0;
+  for (std::size_t e = 0; e < effect; ++e) first += effects_[e].parameters.size();
+  return first;
+}
+
+void AcceptedEffects::take(const IceFit& fit) {
+  parameters_ = fit.parameters;
+  numbers_ = fit.numbers;
+  std::size_t first = 0;
+  for (NamedEffect& effect : effects_) {
+    const std::size_t end = first + effect.parameters.size();
+    effect.values.clear(), effect.errors.clear();
+    for (std::size_t i = first; i < end; ++i) {
+      effect.values.push_back(fit.value(i));
+      effect.errors.push_back(fit.error(i));
+    }
+    if (is_layered(effect) && effect.parameters.front().logarithmic) take_mean(fit, first, effect);
+    first = end;
+  }
+}
+
+void AcceptedEffects::take_mean(const IceFit& fit, std::size_t first, NamedEffect& effect) const {
+  const auto at = static_cast<Eigen::Index>(first),
+             count = static_cast<Eigen::Index>(effect.parameters.size());
+  Eigen::VectorXd share(count);
+  for (Eigen::Index i = 0; i < count; ++i)
+    share(i) = effect.values[static_cast<std::size_t>(i)] / static_cast<double>(count);
+  effect.mean = {"strength", share.sum(),
+                 std::sqrt(share.dot(fit.covariance.block(at, at, count, count) * share))};
+}
+
+// Whether it changes the ice's tables, and nothing else.
+bool AcceptedEffects::is_of_ice(const NamedEffect& effect) const {
+  if (is_layered(effect)) return true;
+  ModelParts parts = parts_of(base_);
+  apply_effects(settings_of(effect), parts);
+  return freeze(std::move(parts)).ice->hash() != base_.ice->hash();
+}
+
+}  // namespace floe
