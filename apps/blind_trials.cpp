@@ -15,6 +15,7 @@
 #include "apps/planned_output.h"
 #include "apps/progress_bar.h"
 #include "apps/text_table.h"
+#include "data/base/error.h"
 #include "reco/diagnose/blind_trials.h"
 
 namespace floe {
@@ -153,6 +154,21 @@ Json full_json(const FullTrial& trial) {
   return json;
 }
 
+// A run of many flashes has their light together.
+std::vector<FlasherRun> runs_of(const std::string& file) {
+  std::vector<FlasherRun> runs;
+  for (const RunToSimulate& run : read_flasher_runs(file)) {
+    if (run.beam || run.pulse)
+      throw InputError({file},
+                       fmt::format("a measured {} of {},{}", run.beam ? "beam" : "pulse",
+                                   run.run.module.string, run.run.module.dom),
+                       "widths of beam and pulse, which are all that trials simulate");
+    runs.push_back(run.run);
+    runs.back().photons *= run.repeats;
+  }
+  return runs;
+}
+
 void run_trials(const BlindTrialsCommand& command) {
   BlindTrialOptions options = command.options;
   options.seed = command.run.seed;
@@ -160,8 +176,7 @@ void run_trials(const BlindTrialsCommand& command) {
   options.oversize = command.run.oversize;
   PlannedOutput json(command.output.json);
   const Model base = load_model(command.model);
-  std::vector<FlasherRun> runs;
-  for (const RunToSimulate& run : read_flasher_runs(command.runs)) runs.push_back(run.run);
+  const std::vector<FlasherRun> runs = runs_of(command.runs);
   BlindTrials trials;
   {
     ProgressBar bar(command.output.quiet);
@@ -188,7 +203,8 @@ void add_blind_trials(CLI::App& floe) {
   const auto command = std::make_shared<BlindTrialsCommand>();
   command->options.light = {2, 1e3, 2e11};
   command->run.oversize = command->options.oversize;
-  app.add_option("runs", command->runs, "Flasher runs to simulate, as for floe simulate --flashers")
+  app.add_option("runs", command->runs,
+                 "Flasher runs to simulate, as for floe simulate --flashers, without measured curves")
       ->type_name("RUNS.toml")
       ->required();
   add_model_options(app, command->model);

@@ -18,6 +18,7 @@
 #include "apps/text_table.h"
 #include "data/base/error.h"
 #include "reco/compare.h"
+#include "reco/event_data.h"
 #include "reco/figure_arrival_times.h"
 
 namespace floe {
@@ -179,6 +180,8 @@ void run_compare(const CompareOptions& options) {
   for (std::size_t i = 0; i < events.size(); ++i)
     pictures.push_back(std::make_unique<PlannedOutput>(picture_name(options.picture, i, events.size())));
   const Models models{requests, load_model(requests[0]), load_model(requests[1])};
+  // A bad event is found before the work on others begins.
+  for (const Event& event : events) EventData(*models.a.detector, event, fit.selection);
 
   Json results = {{"models", {to_json(models.a), to_json(models.b)}},
                   {"seed", fit.seed},

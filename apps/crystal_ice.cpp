@@ -59,6 +59,7 @@ void add_crystal_ice_options(CLI::App& app, CrystalIceRequest& request) {
 
 CrystalIceWriter::CrystalIceWriter(const CrystalIceRequest& request)
     : request_(request), folder_(*request.folder), base_(load_model(request.model)) {
+  copy_base_ice(request.model, folder_.temporary());
   if (request.layer_grains) grains_ = read_layer_grains(*request.layer_grains);
 }
 

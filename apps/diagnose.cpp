@@ -132,7 +132,8 @@ std::string summary(const Diagnosis& diagnosis, const DiagnoseCommand& command) 
   std::string text;
   for (const std::string& sentence : diagnosis.left_out) text += "left out: " + sentence + "\n";
   text += verdict_sentence(diagnosis, command.options.alpha) + "\n";
-  if (!diagnosis.verdict.empty()) text += diagnosis.steps.front().where.regions.front().sentence + "\n";
+  const std::vector<Region>& regions = diagnosis.steps.front().where.regions;
+  if (!diagnosis.verdict.empty() && !regions.empty()) text += regions.front().sentence + "\n";
   TextTable table({"effect", "parameter", "fitted", "error", "unit"});
   for (const NamedEffect& effect : diagnosis.effects) {
     if (effect.mean)
@@ -166,6 +167,9 @@ void run_diagnose(const DiagnoseCommand& given) {
   PlannedOutput json(command.output.json);
   const std::vector<Event> events = read_flasher_file(command.data);
   const Model base = load_model(command.model);
+  expect_writable(base.ice->tables());
+  const std::filesystem::path improved = folder.temporary() / improved_ice_folder;
+  copy_base_ice(command.model, improved);
   const FlasherData data = flasher_data(*base.detector, events);
   command.options.folds = std::min(command.options.folds, static_cast<int>(data.runs.size()));
   Diagnosis diagnosis;
@@ -180,7 +184,7 @@ void run_diagnose(const DiagnoseCommand& given) {
   write_whole_file(folder.temporary() / "result.json", result);
   write_whole_file(folder.temporary() / "report.html", report_html(diagnosis, command.options, facts));
   write_improved_ice(command.model, diagnosis.improved, diagnosis.beside_ice,
-                     changes_text(diagnosis, command, base), folder.temporary() / "improved-ice");
+                     changes_text(diagnosis, command, base), improved);
   json.write(result);
   json.commit();
   folder.commit();

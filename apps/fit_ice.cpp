@@ -9,6 +9,7 @@
 #include "apps/common_options.h"
 #include "apps/flasher_input.h"
 #include "apps/ice_fit_output.h"
+#include "apps/improved_ice.h"
 #include "apps/option_values.h"
 #include "apps/progress_bar.h"
 #include "data/base/atomic_folder.h"
@@ -107,6 +108,8 @@ void run_fit_ice(const FitIceCommand& command) {
   PlannedOutput json(command.output.json);
   const std::vector<Event> events = read_flasher_file(command.data);
   const Model base = load_model(command.model);
+  expect_writable(base.ice->tables());
+  copy_base_ice(command.model, folder.temporary() / improved_ice_folder);
   FlasherData data = flasher_data(*base.detector, events);
   auto parameters = parameters_of(command, base, depth_range(command, *base.detector, data));
   begin_at(command.start, parameters);

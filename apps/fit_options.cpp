@@ -9,6 +9,7 @@
 #include "apps/option_values.h"
 #include "data/base/error.h"
 #include "data/base/text.h"
+#include "data/event_rules.h"
 
 namespace floe {
 
@@ -54,8 +55,10 @@ Json other_minimum_json(const OtherMinimum& other) {
 }
 
 ModuleId module_of(const TextLine& line) {
-  return {static_cast<int>(parse_integer(line, 0, "string")),
-          static_cast<int>(parse_integer(line, 1, "DOM"))};
+  const long string = parse_integer(line, 0, "string"), dom = parse_integer(line, 1, "DOM");
+  expect_range(line, static_cast<double>(string), 1, largest_string, "string");
+  expect_range(line, static_cast<double>(dom), 1, largest_dom, "DOM");
+  return {static_cast<int>(string), static_cast<int>(dom)};
 }
 
 std::map<ModuleId, double> read_noise(const std::string& file) {

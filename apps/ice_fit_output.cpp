@@ -179,7 +179,7 @@ void write_ice_fit(const IceFitReport& report, const fs::path& folder) {
   write_whole_file(folder / "stratigraphy.svg", stratigraphy_picture(rows, title));
   if (!report.fit.efficiencies.empty())
     write_whole_file(folder / "efficiencies.csv", efficiencies_csv(report.fit));
-  write_improved_ice(report.base_request, report.fitted, {}, changes(report), folder / "improved-ice");
+  write_improved_ice(report.base_request, report.fitted, {}, changes(report), folder / improved_ice_folder);
 }
 
 }  // namespace floe

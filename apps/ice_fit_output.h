@@ -24,8 +24,7 @@ std::string ice_fit_table(const IceFitReport& report);  // for people
 Json ice_fit_json(const IceFitReport& report);          // result.json
 Json to_json(const RunResult& run);
 // result.json, stratigraphy.csv, stratigraphy.svg, efficiencies.csv where they were fitted, and improved-ice/
-// with its CHANGES.txt. Files of the base directory that floe does not read are passed on. Throws
-// OutputError.
+// with its CHANGES.txt, where copy_base_ice has been. Throws OutputError.
 void write_ice_fit(const IceFitReport& report, const std::filesystem::path& folder);
 
 }  // namespace floe

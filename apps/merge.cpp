@@ -13,6 +13,7 @@
 #include "apps/planned_output.h"
 #include "data/base/error.h"
 #include "data/event_files.h"
+#include "data/event_rules.h"
 #include "data/event_stream.h"
 
 namespace floe {
@@ -40,9 +41,12 @@ Part open_part(const std::string& file) {
     const Json& shard = part.configuration["shard"];
     if (!shard.is_array() || shard.size() != 2 || !shard[0].is_number_unsigned() ||
         !shard[1].is_number_unsigned())
-      throw InputError({file}, "a shard " + shard.dump(), "two whole numbers, [k, K], in its configuration");
+      throw InputError({file}, "a shard " + json_line(shard),
+                       "two whole numbers, [k, K], in its configuration");
     part.shard = shard[0];
     part.shards = shard[1];
+    if (part.shards > most_shards)
+      throw InputError({file}, fmt::format("{} shards", part.shards), fmt::format("at most {}", most_shards));
     part.configuration.erase("shard");
   }
   return part;
@@ -143,7 +147,7 @@ Provenance provenance_of(const std::vector<Part>& parts, bool shards, const std:
   Provenance provenance = parts.front().events.provenance();
   provenance.command = command_line;
   if (shards) {
-    provenance.configuration = parts.front().configuration.dump();
+    provenance.configuration = json_line(parts.front().configuration);
     return provenance;
   }
   Json configuration = {{"command", "merge"}, {"files", Json::array()}};
@@ -151,7 +155,7 @@ Provenance provenance_of(const std::vector<Part>& parts, bool shards, const std:
     configuration["files"].push_back({{"file", part.file},
                                       {"ice_hash", part.events.provenance().ice_hash},
                                       {"configuration", part.configuration}});
-  provenance.configuration = configuration.dump();
+  provenance.configuration = json_line(configuration);
   provenance.weighted = std::any_of(parts.begin(), parts.end(),
                                     [](const Part& part) { return part.events.provenance().weighted; });
   return provenance;

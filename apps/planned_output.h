@@ -29,5 +29,7 @@ class PlannedOutput {
 using Json = nlohmann::ordered_json;
 // Indented; numbers that are not finite become null.
 std::string json_text(const Json& json);
+// The same in one line, for attributes and journals. Names of files that are no UTF-8 are mended in both.
+std::string json_line(const Json& json);
 
 }  // namespace floe

@@ -18,7 +18,8 @@
 #include "apps/row_journal.h"
 #include "data/base/atomic_file.h"
 #include "data/base/error.h"
-#include "data/base/hash.h"
+#include "data/event_hash.h"
+#include "propagation/model_hash.h"
 #include "reco/direct_fit/cascade_fit.h"
 #include "reco/direct_fit/sky_map_file.h"
 #include "reco/direct_fit/sky_map_picture.h"
@@ -99,34 +100,25 @@ EventResult result_of(const Json& row) {
   return result;
 }
 
-std::string hash_of(const std::vector<Event>& events) {
-  Hasher hasher;
-  for (const Event& event : events) {
-    hasher.add(event.id).add(event.repeats).add(event.hits.size());
-    for (const Hit& hit : event.hits)
-      hasher.add(hit.module.string).add(hit.module.dom).add(hit.time).add(double(hit.charge));
-  }
-  return hasher.hex();
-}
-
-// All that results depend on. (Hashes do not tell how modules accept light; what --with changes of that
-// stands beside them.)
-Json heading_of(const ModelRequest& request, const Model& model, const FitOptions& fit,
-                const std::vector<Event>& events) {
-  return {{"journal", "floe reconstruct 1"}, {"version", FLOE_VERSION},
-          {"model", to_json(model)},         {"with", texts_of(request.with)},
-          {"settings", to_json(fit)},        {"sky_map_pixels", fit.sky_map_pixels},
-          {"profile", fit.profile},          {"events", hash_of(events)}};
+// All that results depend on.
+Json heading_of(const Model& model, const FitOptions& fit, const std::vector<Event>& events) {
+  return {{"journal", "floe reconstruct 2"},
+          {"version", FLOE_VERSION},
+          {"model", model_hash(model)},
+          {"settings", to_json(fit)},
+          {"sky_map_pixels", fit.sky_map_pixels},
+          {"profile", fit.profile},
+          {"events", hash_of(events)}};
 }
 
 // Fits the events over all cores and says what it found, in their order.
 class EventRun {
  public:
-  EventRun(const std::vector<Event>& events, const ModelRequest& request, const Model& model,
-           const FitOptions& fit, const OutputOptions& output)
+  EventRun(const std::vector<Event>& events, const Model& model, const FitOptions& fit,
+           const OutputOptions& output)
       : events_(events), model_(model), fit_(fit), quiet_(output.quiet), results_(events.size()) {
     if (output.json && events.size() > 1) {
-      journal_ = std::make_unique<RowJournal>(*output.json + ".rows", heading_of(request, model, fit, events),
+      journal_ = std::make_unique<RowJournal>(*output.json + ".rows", heading_of(model, fit, events),
                                               RowJournal::Mismatch::start_again);
       for (const Json& row : journal_->rows())
         results_.at(row.at("index").get<std::size_t>()) = result_of(row);
@@ -237,7 +229,7 @@ void run_reconstruct(const ReconstructOptions& options) {
   Json results = {{"model", to_json(model)},
                   {"seed", fit_options.seed},
                   {"warnings", warn_of_model(model, fit_options.oversize)}};
-  EventRun run(events, options.model, model, fit_options, options.output);
+  EventRun run(events, model, fit_options, options.output);
   run.run();
   results["events"] = run.json();
   json.write(json_text(results));

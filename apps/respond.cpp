@@ -100,7 +100,7 @@ Provenance provenance_of(const RespondOptions& options, const Json& configuratio
   Provenance provenance = input;
   provenance.version = FLOE_VERSION;
   provenance.command = command_line;
-  provenance.configuration = configuration.dump();
+  provenance.configuration = json_line(configuration);
   provenance.detector_name = detector.name();
   provenance.detector_hash = detector.hash();
   provenance.seed = options.settings.seed;

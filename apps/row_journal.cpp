@@ -14,17 +14,26 @@ namespace floe {
 namespace {
 
 std::string line_of(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
+  return json_line(json) + '\n';
 }
 
-void write_all(int file, const std::string& text, const std::filesystem::path& path) {
+bool wrote_all(int file, const std::string& text) {
   std::size_t done = 0;
   while (done < text.size()) {
     const ssize_t n = ::write(file, text.data() + done, text.size() - done);
-    if (n <= 0) throw OutputError(path.string() + ": could not be written; is the disk full?");
+    if (n <= 0) return false;
     done += static_cast<std::size_t>(n);
   }
-  if (::fsync(file) != 0) throw OutputError(path.string() + ": could not be written; is the disk full?");
+  return ::fsync(file) == 0;
+}
+
+// All of it or nothing: on a full disk a part of a row would spoil the rows after it.
+void append_whole(int file, const std::string& text, const std::filesystem::path& path) {
+  const off_t end = ::lseek(file, 0, SEEK_END);
+  if (end >= 0 && wrote_all(file, text)) return;
+  const bool cut = end >= 0 && ::ftruncate(file, end) == 0;
+  throw OutputError(path.string() + ": could not be written; is the disk full?" +
+                    (cut ? "" : " Its last line is not whole"));
 }
 
 std::string content_of(const std::filesystem::path& path) {
@@ -34,12 +43,18 @@ std::string content_of(const std::filesystem::path& path) {
   return content.str();
 }
 
+// Whether a run may have been killed while it wrote this as its first line.
+bool may_be_heading(std::string_view text) {
+  constexpr std::string_view begin = R"({"journal":)";
+  return text.starts_with(begin) || begin.starts_with(text);
+}
+
 // What two headings differ in, in words.
 std::string difference(const Json& found, const Json& expected) {
   for (const auto& [key, value] : expected.items())
     if (!found.contains(key) || found[key] != value)
-      return fmt::format("{} {}, not {}", key, found.contains(key) ? found[key].dump() : "unknown",
-                         value.dump());
+      return fmt::format("{} {}, not {}", key, found.contains(key) ? json_line(found[key]) : "unknown",
+                         json_line(value));
   return "settings that this run does not have";
 }
 
@@ -57,19 +72,22 @@ RowJournal::RowJournal(std::filesystem::path path, const Json& asked, Mismatch m
     const std::string content = content_of(path_);
     std::size_t end = 0;
     long line = 0;
+    const auto refuse = [&](long at) {
+      throw InputError({path_.string(), at}, "text that is no row", "a journal of floe",
+                       "Name another file, or remove this one");
+    };
     Json found;
     for (std::size_t next; (next = content.find('\n', end)) != std::string::npos; end = next + 1) {
       ++line;
       Json json = Json::parse(content.substr(end, next - end), nullptr, false);
-      if (!json.is_object() || (line == 1 && !json.contains("journal")))
-        throw InputError({path_.string(), line}, "text that is no row", "a journal of floe",
-                         "Name another file, or remove this one");
+      if (!json.is_object() || (line == 1 && !json.contains("journal"))) refuse(line);
       if (line == 1)
         found = std::move(json);
       else
         rows_.push_back(std::move(json));
     }
     if (line == 0) {
+      if (!may_be_heading(content)) refuse(1);
       begin(heading);
     } else if (found != heading) {
       if (mismatch == Mismatch::error)
@@ -77,6 +95,10 @@ RowJournal::RowJournal(std::filesystem::path path, const Json& asked, Mismatch m
             fmt::format("{}: found rows of a run with {}; expected the same settings. Name "
                         "another file, or remove this one",
                         path_.string(), difference(found, heading)));
+      if (!rows_.empty())
+        fmt::print(stderr, "floe: warning: {}: {} of a run with {} {} dropped\n", path_.string(),
+                   rows_.size() == 1 ? "a row" : fmt::format("{} rows", rows_.size()),
+                   difference(found, heading), rows_.size() == 1 ? "is" : "are");
       rows_.clear();
       begin(heading);
     } else if (end < content.size() && ::ftruncate(file_, static_cast<off_t>(end)) != 0) {
@@ -94,12 +116,12 @@ RowJournal::~RowJournal() {
 
 void RowJournal::begin(const Json& heading) {
   if (::ftruncate(file_, 0) != 0) throw OutputError(path_.string() + ": could not be written");
-  write_all(file_, line_of(heading), path_);
+  append_whole(file_, line_of(heading), path_);
 }
 
 void RowJournal::append(const Json& row) {
   const std::lock_guard lock(mutex_);
-  write_all(file_, line_of(row), path_);
+  append_whole(file_, line_of(row), path_);
 }
 
 void RowJournal::remove() {

@@ -16,8 +16,9 @@ class RowJournal {
  public:
   enum class Mismatch { error, start_again };
   // Opens or creates. Rows of a run with another heading are not mixed: a UsageError that names the file and
-  // the first setting that differs, or a new beginning. Throws InputError for a file that is no journal and
-  // OutputError when it cannot be written, or is in use by another run.
+  // the first setting that differs, or a new beginning, with a warning when rows are lost by it. Throws
+  // InputError for a file that is no journal and OutputError when it cannot be written, or is in use by
+  // another run.
   RowJournal(std::filesystem::path path, const Json& heading, Mismatch mismatch);
   ~RowJournal();
   RowJournal(const RowJournal&) = delete;

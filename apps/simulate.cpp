@@ -22,8 +22,10 @@
 #include "data/base/error.h"
 #include "data/base/file_hash.h"
 #include "data/event_files.h"
+#include "data/event_rules.h"
 #include "data/event_stream.h"
 #include "propagation/engine/simulator.h"
+#include "propagation/model_hash.h"
 
 namespace floe {
 
@@ -83,7 +85,7 @@ Shard parse_shard(const std::string& text) {
     throw UsageError(fmt::format("--shard: found \"{}\"; expected k/K, e.g. 2/10", text));
   Shard shard;
   shard.count =
-      static_cast<std::uint64_t>(parse_option_integer("--shard", text.substr(slash + 1), 1, 1000000));
+      static_cast<std::uint64_t>(parse_option_integer("--shard", text.substr(slash + 1), 1, most_shards));
   shard.index = static_cast<std::uint64_t>(
       parse_option_integer("--shard", text.substr(0, slash), 1, static_cast<std::int64_t>(shard.count)));
   return shard;
@@ -132,7 +134,7 @@ Provenance provenance_of(const SimulateOptions& options, const SourceRequest& li
   Provenance provenance;
   provenance.version = FLOE_VERSION;
   provenance.command = command_line;
-  provenance.configuration = configuration.dump();
+  provenance.configuration = json_line(configuration);
   provenance.ice_name = model.ice->name();
   provenance.ice_hash = model.ice->hash();
   provenance.detector_name = model.detector->name();
@@ -144,12 +146,11 @@ Provenance provenance_of(const SimulateOptions& options, const SourceRequest& li
 }
 
 // What a run depends on, besides what its provenance says.
-Json heading_of(const SimulateOptions& options, const Provenance& provenance) {
-  Json heading = {{"journal", "floe simulate 1"},
+Json heading_of(const SimulateOptions& options, const Provenance& provenance, const Model& model) {
+  Json heading = {{"journal", "floe simulate 2"},
                   {"version", FLOE_VERSION},
                   {"configuration", Json::parse(provenance.configuration)},
-                  {"ice", provenance.ice_hash},
-                  {"detector", provenance.detector_hash}};
+                  {"model", model_hash(model)}};
   if (!options.f2k.empty()) heading["f2k"] = hash_of_file(options.f2k);
   return heading;
 }
@@ -198,7 +199,7 @@ void copy_events(const std::filesystem::path& part, EventFileWriter& writer) {
 
 // One event is written as its light comes. With many, none is lost when the run is killed.
 std::vector<EventResult> simulate_all(const SimulateOptions& options, EventSimulation& simulation,
-                                      std::size_t events, const Provenance& provenance,
+                                      std::size_t events, const Model& model, const Provenance& provenance,
                                       const std::function<void(const std::vector<EventResult>&)>& report) {
   if (events == 1) {
     EventFileWriter writer(options.file, provenance);
@@ -208,7 +209,7 @@ std::vector<EventResult> simulate_all(const SimulateOptions& options, EventSimul
     return results;
   }
   const Partition partition(events);
-  EventParts parts(options.file, heading_of(options, provenance), partition.parts());
+  EventParts parts(options.file, heading_of(options, provenance, model), partition.parts());
   if (parts.found() > 0)
     fmt::print(stderr, "floe: going on after {} of {} parts, found in {}.parts\n", parts.found(),
                partition.parts(), options.file);
@@ -291,11 +292,11 @@ void run_simulate(const SimulateOptions& options, const std::string& command_lin
   {
     ProgressBar bar(options.output.quiet);
     EventSimulation simulation(simulator, events, usual, bar.callback());
-    results =
-        simulate_all(options, simulation, events.size(), provenance_of(options, light, model, command_line),
-                     [&](const std::vector<EventResult>& all) {
-                       json.write(json_text(results_json(all, options, model, warnings)));
-                     });
+    results = simulate_all(options, simulation, events.size(), model,
+                           provenance_of(options, light, model, command_line),
+                           [&](const std::vector<EventResult>& all) {
+                             json.write(json_text(results_json(all, options, model, warnings)));
+                           });
   }
   json.commit();
   warn_of_darkness(results);

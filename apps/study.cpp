@@ -15,6 +15,7 @@
 #include "apps/study_rows.h"
 #include "data/base/error.h"
 #include "data/base/hash.h"
+#include "propagation/model_hash.h"
 #include "reco/study/summary.h"
 #include "response/response_file.h"
 
@@ -83,10 +84,8 @@ StudySettings settings_of(const StudyCommand& command, const std::optional<Respo
   return settings;
 }
 
-// All that rows depend on. (Hashes do not tell how modules accept light; what --with changes of that stands
-// beside them. The journal's number goes up when fits change: rows of two fits are no study.)
-Json heading_of(const StudyCommand& command, const StudySettings& settings,
-                const std::optional<ResponseSettings>& electronics) {
+// All that rows depend on. The journal's number goes up when fits change: rows of two fits are no study.
+Json heading_of(const StudySettings& settings, const std::optional<ResponseSettings>& electronics) {
   Json oversize = Json::object();
   for (const StudyGroup& group : settings.groups)
     oversize[fmt::format("{:g}", group.energy)] = group.oversize;
@@ -95,11 +94,8 @@ Json heading_of(const StudyCommand& command, const StudySettings& settings,
                   {"seed", settings.seed},
                   {"effort", settings.fit.effort},
                   {"oversize", oversize},
-                  {"ice", settings.truth.ice->hash()},
-                  {"detector", settings.truth.detector->hash()},
-                  {"fit_ice", settings.other ? Json(settings.other->ice->hash()) : Json()},
-                  {"with", texts_of(command.model.with)},
-                  {"fit_with", texts_of(command.fit_with)}};
+                  {"model", model_hash(settings.truth)},
+                  {"fit_model", settings.other ? Json(model_hash(*settings.other)) : Json()}};
   if (electronics)
     heading["response"] = Hasher().add(std::string_view(response_file_text(*electronics))).hex();
   return heading;
@@ -203,7 +199,7 @@ void run_study(const StudyCommand& command) {
   PlannedOutput json(command.output.json), picture(command.picture);
   std::unique_ptr<RowJournal> journal;
   if (command.rows)
-    journal = std::make_unique<RowJournal>(*command.rows, heading_of(command, settings, electronics),
+    journal = std::make_unique<RowJournal>(*command.rows, heading_of(settings, electronics),
                                            RowJournal::Mismatch::error);
   const std::vector<StudyRow> rows = run_events(command, settings, journal.get());
 

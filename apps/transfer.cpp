@@ -1,6 +1,8 @@
 // floe import, floe export: between floe's event files and the texts of other tools.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <optional>
@@ -92,7 +94,7 @@ Provenance provenance_of(const TransferOptions& options, const std::string& comm
   provenance.command = command_line;
   Json configuration = {{"command", "import"}, {"input", options.from}};
   if (options.flashers) configuration["flashers"] = true;
-  provenance.configuration = configuration.dump();
+  provenance.configuration = json_line(configuration);
   return provenance;
 }
 
@@ -101,11 +103,25 @@ void write_event(EventFileWriter& writer, const Event& event) {
   writer.append(event.hits);
 }
 
+// An event file knows more than its events: weights, how it was made, what stands beside pulses.
+std::vector<Event> events_to_import(const TransferOptions& options) {
+  if (options.table) return read_icetray_pulses(options.from, options.table);
+  EventFile file = read_event_file(options.from);
+  if (file.provenance)
+    throw InputError({options.from}, "an event file of floe, which all commands read as it is",
+                     "a text of hits or charges, or pulses of IceTray's HDF5 writer");
+  return std::move(file.events);
+}
+
+bool has_widths(const Event& event) {
+  return std::any_of(event.hits.begin(), event.hits.end(),
+                     [](const Hit& hit) { return !std::isnan(hit.width); });
+}
+
 void import_events(const TransferOptions& options, Provenance provenance,
                    std::optional<EventFileWriter>& writer, std::vector<Transferred>& results) {
-  const std::vector<Event> events =
-      options.table ? read_icetray_pulses(options.from, options.table) : read_event_file(options.from).events;
-  provenance.pulses = events.front().readout.has_value();
+  const std::vector<Event> events = events_to_import(options);
+  provenance.pulses = std::any_of(events.begin(), events.end(), has_widths);
   writer.emplace(options.to, provenance);
   for (const Event& event : events) write_event(*writer, event);
   results = transferred(events);

@@ -14,6 +14,7 @@
 #include "apps/progress_bar.h"
 #include "apps/text_table.h"
 #include "data/base/error.h"
+#include "data/base/text.h"
 #include "reco/validation/reference_sets.h"
 
 namespace floe {
@@ -116,12 +117,15 @@ std::vector<ReferenceSet> chosen_sets(const ValidateOptions& options) {
 
 void run_validate(const ValidateOptions& options) {
   const ValidationOptions validation = validation_options(options);
+  const std::vector<ReferenceSet> sets = chosen_sets(options);
+  // Before the work on the first of them.
+  for (const ReferenceSet& set : sets) expect_readable_file(reference_file(set, validation));
   PlannedOutput json(options.output.json);
   TextTable table({"set", "floe", "reference", "ratio of hits", "chi2/modules", "p", "p times", "p zenith",
                    "p azimuth", "p impact", "verdict"});
   Json results = Json::array();
   int failed = 0;
-  for (const ReferenceSet& set : chosen_sets(options)) {
+  for (const ReferenceSet& set : sets) {
     ProgressBar bar(options.output.quiet);
     const Progress progress = bar.callback();
     const Progress named = [&](double fraction, const std::string&) {

@@ -37,7 +37,8 @@ std::size_t index_of(const std::vector<Event>& events, const std::string& id) {
 std::string source_of(const std::optional<Provenance>& provenance) {
   if (!provenance) return "";
   const Json configuration = Json::parse(provenance->configuration, nullptr, false);
-  return configuration.is_object() && configuration.contains("source") ? configuration["source"].dump() : "";
+  return configuration.is_object() && configuration.contains("source") ? json_line(configuration["source"])
+                                                                       : "";
 }
 
 void warn_of_another_detector(const std::optional<Provenance>& provenance, const Detector& detector) {
@@ -67,7 +68,7 @@ EventToShow read_event(const ViewOptions& options, const Detector& detector, std
   // Files of other programs hold none.
   if (file.provenance) shown.waveforms = EventFileReader(options.events).waveforms(index);
   std::erase_if(shown.waveforms, [](const ModuleWaveform& waveform) { return waveform.repeat > 0; });
-  if (!options.fit.empty()) shown.fit = read_fit_results(options.fit, shown.event.id);
+  if (!options.fit.empty()) shown.fit = read_fit_results(options.fit, options.events, shown.event.id);
   return shown;
 }
 

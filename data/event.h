@@ -33,7 +33,7 @@ struct Hit {
 
 // A particle as f2k text describes it: true for a simulation's input, and stored with its output.
 struct Particle {
-  std::string name = "e-";  // e, e-, e+, gamma, delta, brems, epair, hadr, munu, amu, amu+, amu-, ph
+  std::string name = "e-";  // of known_particle_names() (data/event_rules.h)
   Vec3 position = Vec3::Zero();
   double zenith = 0, azimuth = 0;  // where it comes FROM [rad]
   double length = 0;               // of a muon segment [m]

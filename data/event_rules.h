@@ -1,6 +1,7 @@
 // Which values an event may hold: one place for every reader and writer.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -10,9 +11,10 @@
 
 namespace floe {
 
-inline constexpr int largest_string = 10000;          // strings are 1..10000
-inline constexpr int largest_dom = 1000;              // modules of a string are 1..1000
-inline constexpr std::size_t longest_event_id = 128;  // [bytes]
+inline constexpr std::uint64_t most_shards = 1000000;  // of a simulation
+inline constexpr int largest_string = 10000;           // strings are 1..10000
+inline constexpr int largest_dom = 1000;               // modules of a string are 1..1000
+inline constexpr std::size_t longest_event_id = 128;   // [bytes]
 
 // What is wrong with a value, in the two parts that an error message needs.
 struct Problem {
@@ -40,7 +42,7 @@ std::string event_name_of(const std::filesystem::path& file);
 // The suffix that says what a text holds: ".hits" of "a.hits" and of "a.hits.gz".
 std::string text_suffix_of(const std::filesystem::path& file);
 
-// Names of f2k particles: e, e-, e+, gamma, delta, brems, epair, hadr, munu, amu, amu+, amu-, ph.
+// Names of f2k particles: known_particle_names() lists them.
 bool is_particle_name(std::string_view name);
 std::string known_particle_names();  // for messages
 

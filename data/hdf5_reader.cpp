@@ -127,6 +127,19 @@ void expect_next(const Location& where, const char* table, hsize_t index, std::u
   next = event + 1;
 }
 
+// Rows are found by their event (rows_of), which takes that they go by it.
+template <typename Row>
+void expect_rows_by_event(const TableReader<Row>& table, std::size_t events) {
+  std::uint64_t last = 0;
+  table.for_each([&](const Row& row, hsize_t index) {
+    if (row.event < last || row.event >= events)
+      throw InputError(table.where(),
+                       fmt::format("event {} in row {} of '{}'", row.event, index, Table<Row>::name),
+                       fmt::format("a row of 'events' below {}, not below that of the row before", events));
+    last = row.event;
+  });
+}
+
 // Gives each flasher run to its event. Rows go by event, and an event has one at most.
 void read_flashers(const TableReader<FlasherRow>& table, std::vector<Event>& events) {
   const Location& where = table.where();
@@ -214,8 +227,10 @@ struct EventFileReader::Impl {
 
   template <typename Row>
   bool open_if_there(std::optional<TableReader<Row>>& table) {
-    if (has_table(file, Table<Row>::name)) table.emplace(file, where);
-    return table.has_value();
+    if (!has_table(file, Table<Row>::name)) return false;
+    table.emplace(file, where);
+    expect_rows_by_event(*table, ranges.events.size());
+    return true;
   }
 
   // Values of rows [begin, end), each checked.

@@ -6,6 +6,7 @@
 
 #include "data/base/constants.h"
 #include "data/base/text.h"
+#include "data/event_rules.h"
 #include "geometry/detector.h"
 #include "geometry/with_file_name.h"
 
@@ -30,8 +31,14 @@ int parse_number_of(const TextLine& line, std::size_t field, std::string_view wh
 }
 
 ModuleId parse_module_id(const TextLine& line, std::size_t first_field) {
-  return {parse_number_of(line, first_field, "string number"),
-          parse_number_of(line, first_field + 1, "DOM number")};
+  const ModuleId id{parse_number_of(line, first_field, "string number"),
+                    parse_number_of(line, first_field + 1, "DOM number")};
+  // What sees light must have a place in event files.
+  if (in_ice(id)) {
+    expect_range(line, id.string, 1, largest_string, "string number");
+    expect_range(line, id.dom, 1, largest_dom, "DOM number");
+  }
+  return id;
 }
 
 double parse_in_range(const TextLine& line, std::size_t field, double low, double high,

@@ -118,8 +118,18 @@ ModelDifference difference(const Model& a, const Model& b) {
           .noise_rate = a.noise_rate != b.noise_rate};
 }
 
+bool changes_ice(const std::vector<EffectSetting>& effects, const Model& model) {
+  ModelParts parts = parts_of(model);
+  apply_effects(effects, parts);
+  return freeze(std::move(parts)).ice->hash() != model.ice->hash();
+}
+
 ModelParts parts_of(const Model& model) {
   return {model.ice->tables(), *model.detector, model.acceptance, model.sources, model.noise_rate};
+}
+
+Model load_without_effects(const ModelRequest& request) {
+  return freeze(load_parts(request));
 }
 
 Model load_model(const ModelRequest& request) {

@@ -35,6 +35,8 @@ ModelDifference difference(const Model& a, const Model& b);
 
 // Checks the parts and works out what follows. Throws InputError (see IceModel).
 Model freeze(ModelParts parts);
+// Whether these effects, applied to the model, change its ice.
+bool changes_ice(const std::vector<EffectSetting>& effects, const Model& model);
 // What freeze() makes the same model of.
 ModelParts parts_of(const Model& model);
 
@@ -55,6 +57,8 @@ struct ModelRequest {
 // the effects leave is not physical), UsageError (unknown effect, parameter or version, a parameter's value
 // out of its range).
 Model load_model(const ModelRequest& request);
+// The same before any effect is applied or switched off: neither those of floe.toml nor --with nor --without.
+Model load_without_effects(const ModelRequest& request);
 
 // Names that switch_off() takes, in the order in which help lists them: birefringence (its scattering
 // subtraction goes too), birefringence.diffusion, .deflection, .displacement, absorption-anisotropy,

@@ -78,7 +78,8 @@ std::vector<DetectorResponse::Photon> DetectorResponse::photons_of(const Event& 
     if (std::isnan(hit.wavelength))
       throw InputError({"event " + event.id, 0}, "hits without a wavelength, which are no photons",
                        "detected photons, as floe simulate writes them",
-                       "Pulses have been through the electronics already");
+                       "Pulses have been through the electronics already; dark noise, which the effect "
+                       "noise.rate adds to photons, is added here by the settings of the response");
     const std::size_t module = detector_.index_of(hit.module);
     if (!(*modules_)[module].on) continue;
     RandomStream stream(seed_, source, draws_of_hits + i);

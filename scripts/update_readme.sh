@@ -29,10 +29,12 @@ renewed() { # FILE
 }
 
 cd "$floe_root"
-if [ $# -eq 0 ]; then set -- README.md docs/guide/getting-started.md docs/guide/simulate.md docs/guide/reconstruct.md; fi
+if [ $# -eq 0 ]; then
+  set -- README.md docs/guide/{getting-started,simulate,reconstruct,respond,view}.md
+fi
 for file in "$@"; do
   echo "== $file"
   renewed "$file" >"$file.new"
   mv "$file.new" "$file"
 done
-cp demo-output/compare.svg docs/pictures/compare.svg
+if [ -f demo-output/compare.svg ]; then cp demo-output/compare.svg docs/pictures/; fi

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "data/base/error.h"
 #include "data/base/text.h"
@@ -63,16 +64,24 @@ FitResults results_of(const Json& event) {
   return results;
 }
 
+// Whether this is the name of the event: alone, or after that of its file, which may have been given by
+// another path.
+bool is_name_of(const std::string& name, const std::string& events, const std::string& event) {
+  if (name == event) return true;
+  if (!name.ends_with(":" + event)) return false;
+  const std::filesystem::path file = name.substr(0, name.size() - event.size() - 1);
+  return file.filename() == std::filesystem::path(events).filename();
+}
+
 }  // namespace
 
-FitResults read_fit_results(const std::string& file, const std::string& event) {
+FitResults read_fit_results(const std::string& file, const std::string& events, const std::string& event) {
   const Json content = parsed(file);
   std::string known;
   try {
     for (const Json& entry : content.at("events")) {
-      // Of several files, the event's name begins with its file's.
       const auto name = entry.at("event").get<std::string>();
-      if (name == event || name.ends_with(":" + event)) return results_of(entry);
+      if (is_name_of(name, events, event)) return results_of(entry);
       known += (known.empty() ? "" : ", ") + name;
     }
   } catch (const Json::exception& error) {

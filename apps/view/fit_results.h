@@ -19,7 +19,8 @@ struct FitResults {
   std::vector<FittedCascade> fits;
 };
 
+// Of the event in the file `events`: where several files were fitted together, results say whose they are.
 // Throws InputError: no such file, not JSON, not of this kind, or without the event.
-FitResults read_fit_results(const std::string& file, const std::string& event);
+FitResults read_fit_results(const std::string& file, const std::string& events, const std::string& event);
 
 }  // namespace floe

@@ -101,9 +101,12 @@ struct IceTables {
 IceTables read_ice_tables(const std::filesystem::path& directory, std::optional<int> version = {});
 
 // Writes the files that read_ice_tables reads into an existing directory (numbers round-trip exactly), and
-// removes those of them that the tables have no content for; other files stay. Throws OutputError, and
-// UsageError when a part of birefringence is switched off alone.
+// removes those of them that the tables have no content for; other files stay. Throws OutputError, and what
+// expect_writable() throws.
 void write_ice_tables(const IceTables& tables, const std::filesystem::path& directory);
+// To be known before the work that leads to such tables: UsageError when a part of birefringence is switched
+// off alone, which no file of a directory can say.
+void expect_writable(const IceTables& tables);
 
 // The 12 numbers of SpiceBFR v2, all parts on (arXiv:2107.08692).
 BirefringenceNumbers published_birefringence();

@@ -113,7 +113,9 @@ void write_or_remove(const fs::path& file, const std::optional<std::string>& tex
   if (error) throw OutputError(fmt::format("{}: cannot be removed: {}", file.string(), error.message()));
 }
 
-void expect_all_parts(const IceTables& tables) {
+}  // namespace
+
+void expect_writable(const IceTables& tables) {
   const auto& birefringence = tables.configuration.birefringence;
   if (!birefringence) return;
   if (!birefringence->diffusion || !birefringence->deflection || !birefringence->displacement)
@@ -122,10 +124,8 @@ void expect_all_parts(const IceTables& tables) {
         "birefringence as a whole or none of its parts before writing");
 }
 
-}  // namespace
-
 void write_ice_tables(const IceTables& tables, const fs::path& directory) {
-  expect_all_parts(tables);
+  expect_writable(tables);
   using Text = std::optional<std::string>;
   const auto& lines = tables.tilt_lines;
   const auto& map = tables.tilt_map;

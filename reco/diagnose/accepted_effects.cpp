@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reco/diagnose/contest.h"
+
 namespace floe {
 
 namespace {
@@ -30,7 +32,8 @@ std::vector<EffectSetting> settings_of(const NamedEffect& effect) {
 
 bool AcceptedEffects::has(const Suspect& suspect) const {
   return std::any_of(effects_.begin(), effects_.end(), [&](const NamedEffect& e) {
-    return e.suspect.effect == suspect.effect && (suspect.place.empty() || suspect.place.count("depth"));
+    const bool one_by_one = suspect.place.count("string") > 0;
+    return e.suspect.effect == suspect.effect && (!one_by_one || e.suspect.place == suspect.place);
   });
 }
 
@@ -107,7 +110,8 @@ void AcceptedEffects::clear() {
 EffectGroups AcceptedEffects::beside_ice() const {
   EffectGroups groups;
   for (const NamedEffect& effect : effects_)
-    if (!is_of_ice(effect)) groups.push_back(settings_of(effect));
+    if (!is_layered(effect) && !changes_ice(settings_of(effect), base_))
+      groups.push_back(settings_of(effect));
   return groups;
 }
 
@@ -128,7 +132,15 @@ void AcceptedEffects::take(const IceFit& fit) {
       effect.values.push_back(fit.value(i));
       effect.errors.push_back(fit.error(i));
     }
-    if (is_layered(effect) && effect.parameters.front().logarithmic) take_mean(fit, first, effect);
+    if (is_layered(effect) && effect.parameters.front().logarithmic)
+      take_mean(fit, first, effect);
+    else
+      effect.significance = std::sqrt(chi_square_of(effect.parameters, fit, first, base_));
+    for (std::size_t i = 0; i < effect.parameters.size(); ++i)
+      if (is_place_of_band(effect.parameters[i])) {
+        const std::string& name = effect.parameters[i].name;
+        effect.suspect.place[name.substr(name.find('.') + 1)] = effect.values[i];
+      }
     first = end;
   }
 }
@@ -141,14 +153,6 @@ void AcceptedEffects::take_mean(const IceFit& fit, std::size_t first, NamedEffec
     share(i) = effect.values[static_cast<std::size_t>(i)] / static_cast<double>(count);
   effect.mean = {"strength", share.sum(),
                  std::sqrt(share.dot(fit.covariance.block(at, at, count, count) * share))};
-}
-
-// Whether it changes the ice's tables, and nothing else.
-bool AcceptedEffects::is_of_ice(const NamedEffect& effect) const {
-  if (is_layered(effect)) return true;
-  ModelParts parts = parts_of(base_);
-  apply_effects(settings_of(effect), parts);
-  return freeze(std::move(parts)).ice->hash() != base_.ice->hash();
 }
 
 }  // namespace floe

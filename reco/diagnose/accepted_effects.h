@@ -36,7 +36,8 @@ class AcceptedEffects {
   const std::vector<NamedEffect>& effects() const { return effects_; }
   bool empty() const { return effects_.empty(); }
   Model model() const { return with_parameters(base_, parameters_, numbers_); }
-  // Whether this suspect is there already: a plain effect has one value in a model.
+  // Whether this suspect is there already: strings and modules may be wrong one by one, of all others a model
+  // holds one.
   bool has(const Suspect& suspect) const;
 
   // What a fit is given: the parameters of all effects, which begin where they are, and `more`.
@@ -44,6 +45,8 @@ class AcceptedEffects {
   std::size_t parameter_count() const { return parameters_.size(); }
   // `fit`: of parameters(effect.parameters).
   void add(NamedEffect effect, const IceFit& fit);
+  // Of parameters(): values, errors, significances and the places of bands follow it.
+  void take(const IceFit& fit);
 
   // The same with the last effect, of one parameter, layer by layer instead.
   std::vector<IceParameter> parameters_by_layers(LayerFamily family, const DepthRange& range) const;
@@ -65,9 +68,7 @@ class AcceptedEffects {
 
  private:
   std::size_t first_parameter(std::size_t effect) const;
-  void take(const IceFit& fit);
   void take_mean(const IceFit& fit, std::size_t first, NamedEffect& effect) const;
-  bool is_of_ice(const NamedEffect& effect) const;
 
   const Model& base_;
   std::vector<NamedEffect> effects_;

@@ -1,6 +1,7 @@
 #include "reco/diagnose/blind_trials.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -33,6 +34,8 @@ class Trials {
 
   BlindTrials run() {
     FlasherData data = data_of(light_of(base_, data_stream));
+    if (data.runs.size() != runs_.size())
+      throw UsageError(fmt::format("trials need light of every run; {}", fmt::join(data.left_out, "; ")));
     const FirstLook look = look_first(
         base_,
         [this](std::size_t r, double photons) {
@@ -41,7 +44,8 @@ class Trials {
           return request;
         },
         data);
-    const SuspectPlan plan = plan_suspects(base_, flasher_depths(data, *base_.detector), data.runs.size());
+    const SuspectPlan plan =
+        plan_suspects(base_, flasher_depths(data, *base_.detector), data.runs.size(), options_.oversize);
     SurveyPlan survey_plan{
         .parameters = plan.parameters, .pair_light = options_.pair_light, .turns_by_pairs = true};
     const Survey survey = survey_data(base_, data, look, survey_plan, options_,
@@ -49,7 +53,7 @@ class Trials {
                                         if (progress_) progress_(0.3 * fraction, "survey: " + text);
                                       });
     const std::vector<Suspect> suspects = suspects_of(survey, plan);
-    const ScoreTester tester(survey, suspects, plan.parameters, options_.draws, options_.seed);
+    const ScoreTester tester(survey, suspects, plan.parameters, draws());
 
     result_.power = power(tester);
     const std::vector<Hidden> hidden = draw_hidden(tester);
@@ -79,6 +83,10 @@ class Trials {
     std::optional<FlasherData> outside;  // light with what no model has
   };
   static constexpr double per_full = 60;  // in fast trials
+  // A diagnosis names what its scores say or what its fit does, each with half of the false alarms.
+  double alpha_of_score() const { return options_.alpha / 2; }
+
+  Draws draws() const { return {options_.draws, options_.seed, options_.threads}; }
 
   void report(double share_of_full, const std::string& text) const {
     if (progress_) progress_(0.3 + 0.7 * (done_ + share_of_full * per_full) / all_, text);
@@ -139,9 +147,11 @@ class Trials {
     for (int t = 0; t < options_.pairs; ++t)
       if (auto pair = draw_pair(effects)) plan.push_back(std::move(*pair));
     if (options_.outside == 0) return plan;
-    const ExpectedFit right = expected_fit(survey, options_.draws, options_.seed);
+    const ExpectedFit right = expected_fit(survey, draws());
     for (int t = 0; t < options_.outside; ++t)
       if (auto outside = draw_outside(t, survey, right)) plan.push_back(std::move(*outside));
+    for (const Full& full : plan)
+      if (full.outside) result_.not_tried.erase(full.hidden.front().effect);
     return plan;
   }
 
@@ -208,7 +218,7 @@ class Trials {
     std::vector<SeenAbove> all;
     for (const TestedSuspect& tested : tester.suspects()) {
       const Suspect& suspect = *tested.suspect;
-      const double gain = tester.gain_to_be_named(suspect.effect, options_.alpha);
+      const double gain = tester.gain_to_be_named(tested, alpha_of_score());
       const auto [known, is_new] = of_effect.try_emplace(suspect.effect);
       if (is_new) known->second = changing_parameters(suspect);
       const std::vector<IceParameter>& parameters = known->second;
@@ -238,14 +248,14 @@ class Trials {
     for (const TestedSuspect& suspect : tester.suspects())
       by_effect[suspect.suspect->effect].push_back(&suspect);
     std::vector<Hidden> all;
-    for (const auto& [effect, places] : by_effect)
-      for (int t = 0; t < options_.trials; ++t) {
-        if (auto hidden = hide(places, tester))
-          all.push_back(std::move(*hidden));
-        else
-          result_.not_tried[effect] =
-              fmt::format("these runs do not show it at {} standard deviations", options_.least);
-      }
+    for (const auto& [effect, places] : by_effect) {
+      int hid = 0;
+      for (int t = 0; t < options_.trials; ++t)
+        if (auto hidden = hide(places, tester)) all.push_back(std::move(*hidden)), ++hid;
+      if (hid == 0 && options_.trials > 0)
+        result_.not_tried[effect] =
+            fmt::format("these runs do not show it at {} standard deviations", options_.least);
+    }
     for (int t = 0; t < options_.nothing; ++t) all.push_back({{}, {}, {}, base_});
     return all;
   }
@@ -265,7 +275,7 @@ class Trials {
       const double unit = place.expected_gain(direction);
       if (!(unit > 0)) continue;
       const Eigen::VectorXd amplitudes =
-          direction * std::sqrt(tester.gain_of_significance(place.suspect->effect, wanted) / unit);
+          direction * std::sqrt(tester.gain_of_significance(place, wanted) / unit);
       if (((amplitudes - place.low).array() < 0).any() || ((place.high - amplitudes).array() < 0).any())
         continue;
       try {
@@ -306,7 +316,7 @@ class Trials {
     BlindTrial trial;
     trial.hidden = hidden.effect;
     trial.p_value = test.p_value;
-    if (test.effects.empty() || test.p_value >= options_.alpha) return trial;
+    if (test.effects.empty() || test.p_value >= alpha_of_score()) return trial;
     const EffectScore& first = test.effects.front();
     trial.named = first.best.suspect.effect;
     trial.named_text = text_of(first.best.suspect);

@@ -42,16 +42,17 @@ std::pair<double, double> duel(const Candidate& leader, const Candidate& challen
   for (IceParameter& p : parameters_of(challenger, base)) both.push_back(std::move(p));
   const IceFit joint = fit(both);
   const std::size_t first = joint.numbers.size() - both.size();
-  return {chi_square_of(leader.trial, joint, first, base),
-          chi_square_of(challenger.trial, joint, first + own, base)};
+  return {chi_square_of(leader.trial.parameters, joint, first, base),
+          chi_square_of(challenger.trial.parameters, joint, first + own, base)};
 }
 
 }  // namespace
 
-double chi_square_of(const Trial& trial, const IceFit& fit, std::size_t first, const Model& base) {
+double chi_square_of(const std::vector<IceParameter>& parameters, const IceFit& fit, std::size_t first,
+                     const Model& base) {
   std::vector<double> nulls;
-  for (std::size_t i = 0; i < trial.parameters.size(); ++i) {
-    const IceParameter& p = trial.parameters[i];
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const IceParameter& p = parameters[i];
     nulls.push_back(is_place_of_band(p) ? fit.numbers[first + i] : null_number(p, base));
   }
   return fit.distance(first, nulls);
@@ -67,7 +68,11 @@ void hold_contest(const Model& base, double noise, const FitBeside& fit, std::ve
       const bool stays =
           leader - parameters_in(candidates[best].trial) >= challenger - parameters_in(candidates[i].trial);
       const std::size_t loser = stays ? i : best;
-      if (!stays) best = i;
+      if (!stays) {
+        // Those that the last best has beaten have not met the new one.
+        for (std::size_t k = 0; k < i; ++k) candidates[k].trial.lost.reset();
+        best = i;
+      }
       candidates[loser].trial.lost = stays ? Duel{leader, challenger} : Duel{challenger, leader};
     } catch (const Error&) {
       // No physical ice on its way: the order of -ln L stays.

@@ -34,9 +34,10 @@ struct Candidate {
 // Fits these beside all that is in the model already, which come first in the result.
 using FitBeside = std::function<IceFit(const std::vector<IceParameter>& more)>;
 
-// Chi-square of the fitted parameters of a suspect, which begin at `first`, about the model without it. The
+// Chi-square of these parameters of a fit, which begin at `first`, about the model without their effect. The
 // place of a band is no change of the model.
-double chi_square_of(const Trial& trial, const IceFit& fit, std::size_t first, const Model& base);
+double chi_square_of(const std::vector<IceParameter>& parameters, const IceFit& fit, std::size_t first,
+                     const Model& base);
 
 // Puts the best first. -ln L decides, with half a unit for each parameter, where the differences are larger
 // than the `noise` of simulations; candidates that are closer are fitted together, two at a time, and the one

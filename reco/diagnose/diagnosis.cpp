@@ -22,6 +22,7 @@ constexpr std::uint64_t look_stream = std::uint64_t{1} << 44, judge_stream = std
 constexpr double light_of_gap = 5;
 constexpr double leading_share = 0.35;  // of the best gain: suspects that are fitted, too
 constexpr std::size_t most_trials = 3;
+constexpr double light_of_pairs = 0.5;   // of fits, in units of a run's own simulation
 constexpr double hits_of_contest = 6e4;  // of each run, at least: rivals are alike
 constexpr double confirmed_share = 0.4;  // of the gain that a score promised, by a fit
 constexpr int rounds = 4, rounds_of_layers = 7, rounds_of_folds = 3, rounds_of_contest = 5;
@@ -51,6 +52,7 @@ class Diagnoser {
     stage(0, 0.03, "first look");
     look_ = look_first(
         base_, [this](std::size_t r, double photons) { return request(r, photons); }, data_);
+    leave_out_dark_runs(data_, look_);
     result_.left_out = data_.left_out;
     judge_.emplace(base_, data_, look_, options_, judge_stream);
     bool unexplained = false;
@@ -70,6 +72,7 @@ class Diagnoser {
   }
 
  private:
+  Draws draws() const { return {options_.draws, options_.seed, options_.threads}; }
   RunRequest request(std::size_t r, double photons) const {
     return request_of(data_.runs[r], options_, photons, look_stream + r);
   }
@@ -90,17 +93,20 @@ class Diagnoser {
   bool look_at(const Model& model, int step) {
     const double from = begin(step), length = begin(step + 1) - from;
     stage(from, from + length * 0.4, step == 0 ? "looking for a gap" : "looking again");
-    const SuspectPlan plan = plan_suspects(model, flasher_depths(data_, *model.detector), data_.runs.size());
+    const SuspectPlan plan =
+        plan_suspects(model, flasher_depths(data_, *model.detector), data_.runs.size(), options_.oversize);
     SurveyPlan survey_plan{.parameters = plan.parameters};
     survey_plan.stream = static_cast<std::uint64_t>(step);
     const Survey survey = survey_data(model, data_, look_, survey_plan, options_, part());
+    if (survey.bins == 0)
+      throw NoResult("not enough light: no receiver of any flasher run sees enough to be compared");
     DiagnosisStep now;
     goodness(survey, now);
     const std::vector<Suspect> suspects = suspects_of(survey, plan);
-    const ScoreTester tester(survey, suspects, plan.parameters, options_.draws, options_.seed);
+    const ScoreTester tester(survey, suspects, plan.parameters, draws());
     now.scores = tester.test(measured_counts(survey), options_.floor);
     const std::vector<Axis> axes = axes_of(model, survey);
-    now.where = where_is_the_gap(survey, axes, options_.draws, options_.seed);
+    now.where = where_is_the_gap(survey, axes, draws());
     find_separations(survey, axes, tester, now.scores);
     result_.steps.push_back(std::move(now));
     const DiagnosisStep& last = result_.steps.back();
@@ -123,13 +129,14 @@ class Diagnoser {
   }
   static bool leads(const EffectScore& effect, const ScoreTest& scores) {
     constexpr double least_gain = 5;
+    constexpr double by_chance = 0.05;  // for all its places
     return effect.best.gain >= leading_share * scores.effects.front().best.gain &&
-           effect.best.gain > least_gain;
+           effect.best.gain > least_gain && effect.ln_p < std::log(by_chance);
   }
 
   void goodness(const Survey& survey, DiagnosisStep& now) const {
     now.neg_llh = total_neg_llh(survey, measured_counts(survey));
-    const ExpectedFit right = expected_fit(survey, options_.draws, options_.seed);
+    const ExpectedFit right = expected_fit(survey, draws());
     now.expected = right.mean;
     now.scatter = right.scatter;
     now.p_of_fit = normal_tail((now.neg_llh - now.expected) / now.scatter);
@@ -142,6 +149,7 @@ class Diagnoser {
     options.light.least_hits = std::max(options.light.least_hits, least_hits);
     options.most_rounds = most_rounds;
     options.judged = false;  // the same for all rivals, below
+    options.pair_light = light_of_pairs;
     return fit_ice(base_, data, parameters, options, part());
   }
 
@@ -182,7 +190,8 @@ class Diagnoser {
       try {
         candidates.push_back(fitted(suspect));
       } catch (const Error&) {
-        // No physical ice on its way: it is not what is missing.
+        result_.remarks.push_back(
+            fmt::format("{} could not be fitted: no physical ice on its way", text_of(suspect.suspect)));
       }
     }
     return candidates;
@@ -195,7 +204,7 @@ class Diagnoser {
     trial.parameters = fit_parameters(score.suspect, score.amplitudes, base_);
     candidate.fit = fit(data_, accepted_.parameters(trial.parameters), rounds);
     trial.neg_llh = neg_llh_of_all(with_parameters(base_, candidate.fit.parameters, candidate.fit.numbers));
-    trial.chi_square = chi_square_of(trial, candidate.fit, accepted_.parameter_count(), base_);
+    trial.chi_square = chi_square_of(trial.parameters, candidate.fit, accepted_.parameter_count(), base_);
     return candidate;
   }
 
@@ -220,7 +229,8 @@ class Diagnoser {
     named.parameters = trial.parameters;
     named.group = {trial.suspect.effect};
     for (const EffectScore& other : now.scores.effects)
-      if (cannot_be_told(other, now)) named.group.push_back(other.best.suspect.effect);
+      if (!accepted_.has(other.best.suspect) && cannot_be_told(other, now))
+        named.group.push_back(other.best.suspect.effect);
     for (const Separation& separation : separations_)
       if (separation.effect == named.group.front() && contains(named.group, separation.other))
         named.separations.push_back(separation);
@@ -259,18 +269,20 @@ class Diagnoser {
 
   // A new effect may explain an earlier one away.
   void retest() {
-    const std::optional<AcceptedEffects::Faded> faded = accepted_.faded();
-    if (!faded) return;
-    const std::vector<NamedEffect>& effects = accepted_.effects();
-    result_.remarks.push_back(fmt::format("{} was given up when {} came in: {:.1f} standard deviations",
-                                          text_of(effects[faded->effect].suspect),
-                                          text_of(effects.back().suspect), faded->sigmas));
-    accepted_.drop(faded->effect);
-    for (DiagnosisStep& step : result_.steps)
-      if (step.added == faded->effect)
-        step.added.reset();
-      else if (step.added && *step.added > faded->effect)
-        --*step.added;
+    while (const std::optional<AcceptedEffects::Faded> faded = accepted_.faded()) {
+      const std::vector<NamedEffect>& effects = accepted_.effects();
+      result_.remarks.push_back(fmt::format("{} was given up when {} came in: {:.1f} standard deviations",
+                                            text_of(effects[faded->effect].suspect),
+                                            text_of(effects.back().suspect), faded->sigmas));
+      accepted_.drop(faded->effect);
+      for (DiagnosisStep& step : result_.steps)
+        if (step.added == faded->effect)
+          step.added.reset();
+        else if (step.added && *step.added > faded->effect)
+          --*step.added;
+      // What it had taken goes to the others.
+      accepted_.take(fit(data_, accepted_.parameters(), rounds));
+    }
   }
   void give_up_everything(const std::string& why) {
     for (const NamedEffect& effect : accepted_.effects())
@@ -281,16 +293,18 @@ class Diagnoser {
 
   void finish(bool unexplained) {
     // Where all that may be added still leaves a gap, each has taken a part of what none of them is.
-    const auto named = static_cast<int>(accepted_.effects().size());
-    if (unexplained && named == options_.most_effects && named > 1)
+    const std::size_t named = accepted_.effects().size(), looks = result_.steps.size();
+    if (unexplained && looks > static_cast<std::size_t>(options_.most_effects) && named > 1)
       give_up_everything(fmt::format("{} effects together leave a gap, and none of them names it", named));
-    measure_gaps();
-    if (result_.gap_after > result_.gap_before) {
+    const double noise = measure_gaps();
+    if (result_.gap_after > result_.gap_before + noise) {
       // What makes light worse that the fit has not seen is not what is missing.
       give_up_everything("runs that were held out fit worse with it");
       for (RunGap& run : result_.gaps) run.after = run.before;
       result_.gap_after = result_.gap_before;
-      unexplained = result_.steps.front().p_of_fit < options_.alpha / 2;
+      // A score that no held-out light confirms is none.
+      result_.p_value = std::min(1.0, 2 * result_.steps.front().p_of_fit);
+      unexplained = result_.p_value < options_.alpha;
     }
     result_.improved = accepted_.model();
     result_.effects = accepted_.effects();
@@ -299,24 +313,35 @@ class Diagnoser {
     result_.beside_ice = accepted_.beside_ice();
   }
 
-  void measure_gaps() {
+  // Returns the standard deviation of a difference of gaps: the noise of their simulations.
+  double measure_gaps() {
     RunSettings settings = options_;
     settings.light.light *= light_of_gap;
     settings.light.least_hits *= light_of_gap;
     const ModelJudge judge(base_, data_, look_, settings, gap_stream);
     result_.gaps = gaps_of(base_, data_, judge);
-    const HeldOutRuns held_out(data_, *base_.detector, options_.folds);
+    const int folds = std::min(options_.folds, static_cast<int>(data_.runs.size()));
+    const HeldOutRuns held_out(data_, *base_.detector, folds);
     const auto model_without = [&](int fold) {
-      const int folds = held_out.folds();
       stage(0.9 + 0.1 * fold / folds, 0.9 + 0.1 * (fold + 1) / folds, "holding runs out");
       return folds == 1 ? accepted_.model() : fitted_to(held_out.rest(data_, fold));
     };
     if (!accepted_.empty()) hold_out(held_out, judge, model_without, result_.gaps);
     for (const RunGap& run : result_.gaps) result_.gap_before += run.before, result_.gap_after += run.after;
+    return 2 * judge.noise_of_differences();
   }
   Model fitted_to(const FlasherData& rest) {
-    const IceFit blind = fit(rest, accepted_.parameters(), rounds_of_folds);
+    std::vector<IceParameter> parameters = accepted_.parameters();
+    for (IceParameter& p : parameters) expect_no_change(p);
+    const IceFit blind = fit(rest, parameters, rounds_of_folds);
     return with_parameters(base_, blind.parameters, blind.numbers);
+  }
+  // What only the runs that are held out tell of is not known: a prior, as wide as a large change, leaves it
+  // where it changes nothing, and the place of a band where it is.
+  void expect_no_change(IceParameter& p) const {
+    if (!p.family.empty() || p.prior > 0) return;
+    p.prior = p.scale;
+    p.prior_centre = is_place_of_band(p) ? p.start : null_number(p, base_);
   }
 
   static bool contains(const std::vector<std::string>& names, const std::string& name) {

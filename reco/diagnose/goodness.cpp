@@ -17,17 +17,17 @@ double total_neg_llh(const Survey& survey, const SurveyCounts& counts) {
   return std::accumulate(of_runs.begin(), of_runs.end(), 0.0);
 }
 
-ExpectedFit expected_fit(const Survey& survey, int draws, std::uint64_t seed) {
-  std::vector<double> drawn(static_cast<std::size_t>(draws));
-#pragma omp parallel for
-  for (int d = 0; d < draws; ++d)
+ExpectedFit expected_fit(const Survey& survey, const Draws& draws) {
+  std::vector<double> drawn(static_cast<std::size_t>(draws.count));
+#pragma omp parallel for num_threads(cores(draws))
+  for (int d = 0; d < draws.count; ++d)
     drawn[static_cast<std::size_t>(d)] =
-        total_neg_llh(survey, drawn_counts(survey, seed, first_draw + static_cast<std::uint64_t>(d)));
+        total_neg_llh(survey, drawn_counts(survey, draws.seed, first_draw + static_cast<std::uint64_t>(d)));
   ExpectedFit fit;
   double squares = 0;
-  for (const double value : drawn) fit.mean += value / draws;
+  for (const double value : drawn) fit.mean += value / draws.count;
   for (const double value : drawn) squares += std::pow(value - fit.mean, 2);
-  fit.scatter = std::sqrt(squares / (draws - 1));
+  fit.scatter = std::sqrt(squares / (draws.count - 1));
   return fit;
 }
 

@@ -1,8 +1,6 @@
 // How well counts of all runs fit a survey's model, against what they would if nothing were missing.
 #pragma once
 
-#include <cstdint>
-
 #include "reco/diagnose/survey.h"
 
 namespace floe {
@@ -15,6 +13,6 @@ double total_neg_llh(const Survey& survey, const SurveyCounts& counts);
 struct ExpectedFit {
   double mean = 0, scatter = 0;
 };
-ExpectedFit expected_fit(const Survey& survey, int draws, std::uint64_t seed);
+ExpectedFit expected_fit(const Survey& survey, const Draws& draws);
 
 }  // namespace floe

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "reco/validation/two_sample_tests.h"
+
 namespace floe {
 
 namespace {
@@ -36,16 +38,29 @@ MatrixXd combined(const Suspect& a, const Suspect& b, const MatrixXd& columns) {
   return sums;
 }
 
-// Combinations of amplitudes that change light by something: columns of the result. `light`: counts of all
-// bins.
-MatrixXd known_directions(const MatrixXd& information, double light) {
+// Combinations of amplitudes that change light by something: columns of the result. `large`: a large change
+// of each amplitude; `light`: counts of all bins.
+MatrixXd known_directions(const MatrixXd& information, const VectorXd& large, double light) {
   constexpr double least = 1e-4;   // of the largest
   constexpr double hardly = 1e-9;  // mean square of the relative change of light
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> parts(information);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> parts(large.asDiagonal() * information * large.asDiagonal());
   const VectorXd& values = parts.eigenvalues();  // rising
   const double limit = std::max(least * values.maxCoeff(), hardly * light);
   const Eigen::Index unknown = (values.array() <= limit).count();
-  return parts.eigenvectors().rightCols(values.size() - unknown);
+  return large.asDiagonal() * parts.eigenvectors().rightCols(values.size() - unknown);
+}
+
+// By amplitude of the suspect.
+VectorXd large_changes(const Suspect& suspect, const std::vector<IceParameter>& parameters,
+                       const Survey& survey) {
+  VectorXd large(static_cast<Eigen::Index>(suspect.amplitudes.size()));
+  for (Eigen::Index i = 0; i < large.size(); ++i) {
+    const int first = suspect.amplitudes[static_cast<std::size_t>(i)].front().first;
+    const SurveyColumn& column = survey.columns[static_cast<std::size_t>(first)];
+    large(i) = column.kind == SurveyColumn::Kind::parameter ? parameters[column.parameter].scale
+                                                            : large_change(column.kind);
+  }
+  return large;
 }
 
 // Inverse within these directions, 0 in all others.
@@ -71,15 +86,27 @@ void limit(const Suspect& suspect, const std::vector<IceParameter>& parameters, 
   }
 }
 
-// Large gains have probability n exp(-gain); n from the upper tenth of the draws.
-double ln_number(std::vector<double> gains) {
+// Large surprises have probability n exp(-surprise); n from the upper tenth of the draws.
+double ln_number(std::vector<double> surprises) {
   constexpr double tail = 0.1;
-  std::sort(gains.begin(), gains.end());
-  const auto index = static_cast<std::size_t>((1 - tail) * static_cast<double>(gains.size()));
-  return std::log(tail) + gains[std::min(index, gains.size() - 1)];
+  std::sort(surprises.begin(), surprises.end());
+  const auto index = static_cast<std::size_t>((1 - tail) * static_cast<double>(surprises.size()));
+  return std::log(tail) + surprises[std::min(index, surprises.size() - 1)];
 }
-double ln_probability(double gain, double ln_number) {
-  return std::min(0.0, ln_number - gain);
+double ln_probability(double surprise, double ln_number) {
+  return surprise > 0 ? std::min(0.0, ln_number - surprise) : 0;
+}
+
+// The gain that surprises so much.
+double gain_of(double surprise, int degrees) {
+  double low = 0, high = 1;
+  const auto of = [&](double gain) { return -ln_chi_square_probability(2 * gain, degrees); };
+  while (of(high) < surprise) low = high, high *= 2;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = (low + high) / 2;
+    (of(middle) < surprise ? low : high) = middle;
+  }
+  return (low + high) / 2;
 }
 
 std::vector<TestedSuspect> prepare(const Survey& survey, const std::vector<Suspect>& suspects,
@@ -92,8 +119,10 @@ std::vector<TestedSuspect> prepare(const Survey& survey, const std::vector<Suspe
     t.suspect = &suspect;
     t.light = light;
     t.information = combined(suspect, suspect, survey.information);
-    const MatrixXd directions = known_directions(t.information, light);
+    const MatrixXd directions =
+        known_directions(t.information, large_changes(suspect, parameters, survey), light);
     if (directions.cols() == 0) continue;  // no light would show it
+    t.degrees = static_cast<int>(directions.cols());
     t.inverse_information = inverse(t.information, directions);
     t.noise = combined(suspect, suspect, survey.noise);
     t.inverse_noise = inverse(t.noise, directions);
@@ -121,6 +150,18 @@ Imitation imitation(const Score& a, const TestedSuspect& of_a, const TestedSuspe
   return {std::clamp(std::sqrt(std::max(0.0, along.dot(amplitudes)) / own), 0.0, 1.0), amplitudes};
 }
 
+// The most likely amplitudes between limits, one coordinate after another, from `at`: the least of
+// a H a / 2 - a g.
+VectorXd within_limits(const MatrixXd& H, const VectorXd& g, const VectorXd& low, const VectorXd& high,
+                       const VectorXd& at) {
+  constexpr int sweeps = 30;
+  VectorXd a = at.cwiseMax(low).cwiseMin(high);
+  for (int sweep = 0; sweep < sweeps; ++sweep)
+    for (Eigen::Index i = 0; i < a.size(); ++i)
+      if (H(i, i) > 0) a(i) = std::clamp(a(i) + (g(i) - H.row(i).dot(a)) / H(i, i), low(i), high(i));
+  return a;
+}
+
 // By column of a survey with so many.
 VectorXd spread_over_columns(const Suspect& suspect, const VectorXd& amplitudes, Eigen::Index columns) {
   VectorXd spread = VectorXd::Zero(columns);
@@ -133,7 +174,10 @@ VectorXd spread_over_columns(const Suspect& suspect, const VectorXd& amplitudes,
 }  // namespace
 
 VectorXd TestedSuspect::amplitudes(const VectorXd& columns) const {
-  return inverse_information * combined(*suspect, columns);
+  const VectorXd gap = combined(*suspect, columns), at = inverse_information * gap;
+  if (((at - low).array() >= 0).all() && ((high - at).array() >= 0).all()) return at;
+  const MatrixXd weight = information * inverse_noise;
+  return within_limits(weight * information, weight * gap, low, high, at);
 }
 VectorXd TestedSuspect::errors() const {
   return (inverse_information * noise * inverse_information).diagonal().cwiseMax(0).cwiseSqrt();
@@ -142,10 +186,13 @@ double TestedSuspect::size(const VectorXd& at) const {
   return std::sqrt(std::max(0.0, at.dot(information * at)) / light);
 }
 double TestedSuspect::gain(const VectorXd& columns, double floor) const {
-  const VectorXd gap = combined(*suspect, columns), at = inverse_information * gap;
-  const bool allowed = ((at - low).array() >= 0).all() && ((high - at).array() >= 0).all();
-  if (!allowed || size(at) < floor) return 0;
-  return gap.dot(inverse_noise * gap) / 2;
+  const VectorXd gap = combined(*suspect, columns), at = amplitudes(columns);
+  if (size(at) < floor) return 0;
+  const VectorXd expected = information * at;
+  return std::max(0.0, expected.dot(inverse_noise * (gap - expected / 2)));
+}
+double TestedSuspect::surprise(double gain) const {
+  return -ln_chi_square_probability(2 * gain, degrees);
 }
 double TestedSuspect::known_share() const {
   return (inverse_noise * information).trace() / static_cast<double>(information.rows());
@@ -156,51 +203,53 @@ double TestedSuspect::expected_gain(const VectorXd& at) const {
 }
 
 ScoreTester::ScoreTester(const Survey& survey, const std::vector<Suspect>& suspects,
-                         const std::vector<IceParameter>& parameters, int draws, std::uint64_t seed)
+                         const std::vector<IceParameter>& parameters, const Draws& draws)
     : survey_(survey), tested_(prepare(survey, suspects, parameters)) {
-  const auto number = static_cast<std::size_t>(draws);
+  const auto number = static_cast<std::size_t>(draws.count);
   for (const TestedSuspect& t : tested_) drawn_[t.suspect->effect].assign(number, 0);
-#pragma omp parallel for schedule(dynamic)
+#pragma omp parallel for schedule(dynamic) num_threads(cores(draws))
   for (std::size_t d = 0; d < number; ++d) {
-    const VectorXd gap = gap_of(survey_, drawn_counts(survey_, seed, d));
+    const VectorXd gap = gap_of(survey_, drawn_counts(survey_, draws.seed, d));
     for (const TestedSuspect& t : tested_) {
       double& most = drawn_.at(t.suspect->effect)[d];
-      most = std::max(most, t.gain(gap, 0));
+      most = std::max(most, t.surprise(t.gain(gap, 0)));
     }
   }
   // The least of all effects' probabilities, in each draw.
   std::vector<double> least(number, 0);
-  for (const auto& [effect, gains] : drawn_) {
-    ln_number_[effect] = ln_number(gains);
-    for (std::size_t d = 0; d < number; ++d) least[d] = std::max(least[d], gains[d] - ln_number_[effect]);
+  for (const auto& [effect, surprises] : drawn_) {
+    ln_number_[effect] = ln_number(surprises);
+    for (std::size_t d = 0; d < number; ++d)
+      least[d] = std::max(least[d], -ln_probability(surprises[d], ln_number_[effect]));
   }
   ln_number_of_all_ = ln_number(least);
 }
 
-double ScoreTester::gain_of_significance(const std::string& effect, double sigmas) const {
-  return ln_number_.at(effect) - ln_p_of(sigmas);
+double ScoreTester::gain_of_significance(const TestedSuspect& suspect, double sigmas) const {
+  return gain_of(ln_number_.at(suspect.suspect->effect) - ln_p_of(sigmas), suspect.degrees);
 }
 
-double ScoreTester::gain_to_be_named(const std::string& effect, double alpha) const {
-  return ln_number_.at(effect) + ln_number_of_all_ - std::log(alpha);
+double ScoreTester::gain_to_be_named(const TestedSuspect& suspect, double alpha) const {
+  return gain_of(ln_number_.at(suspect.suspect->effect) + ln_number_of_all_ - std::log(alpha),
+                 suspect.degrees);
 }
 
 ScoreTest ScoreTester::test(const SurveyCounts& counts, double floor) const {
   const VectorXd gap = gap_of(survey_, counts);
-  // By effect, the suspect that gains the most.
+  // By effect, the suspect that surprises the most.
   std::map<std::string, const TestedSuspect*> best;
-  std::map<std::string, double> gain;
+  std::map<std::string, double> surprise;
   for (const TestedSuspect& t : tested_) {
-    const double gained = t.gain(gap, floor);
+    const double surprised = t.surprise(t.gain(gap, floor));
     const std::string& effect = t.suspect->effect;
-    if (!best.count(effect) || gained > gain[effect]) best[effect] = &t, gain[effect] = gained;
+    if (!best.count(effect) || surprised > surprise[effect]) best[effect] = &t, surprise[effect] = surprised;
   }
   ScoreTest result;
   for (const auto& [effect, t] : best) {
     EffectScore score;
-    score.best = {*t->suspect, gain[effect], t->amplitudes(gap), t->errors(), 0};
+    score.best = {*t->suspect, t->gain(gap, floor), t->amplitudes(gap), t->errors(), 0};
     score.best.size = t->size(score.best.amplitudes);
-    score.ln_p = ln_probability(gain[effect], ln_number_.at(effect));
+    score.ln_p = ln_probability(surprise[effect], ln_number_.at(effect));
     result.effects.push_back(std::move(score));
   }
   if (result.effects.empty()) return result;
@@ -241,8 +290,8 @@ bool is_inseparable(const EffectScore& effect, const EffectScore& first) {
   return effect.likeness > same || (effect.likeness > much && effect.ln_p - first.ln_p < undecided);
 }
 
-double ln_tail_probability(double gain, const std::vector<double>& drawn) {
-  return ln_probability(gain, ln_number(drawn));
+double ln_tail_probability(double surprise, const std::vector<double>& drawn) {
+  return ln_probability(surprise, ln_number(drawn));
 }
 
 double ln_p_of(double sigmas) {

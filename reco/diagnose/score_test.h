@@ -47,12 +47,15 @@ struct TestedSuspect {
   Eigen::MatrixXd information, noise, inverse_information, inverse_noise;
   Eigen::VectorXd low, high;  // limits of the amplitudes
   double light;               // counts of all bins
+  int degrees;                // combinations of amplitudes that light shows
 
-  // By the gaps of all columns (gap_of).
+  // By the gaps of all columns (gap_of): the most likely within the limits.
   Eigen::VectorXd amplitudes(const Eigen::VectorXd& columns) const;
   Eigen::VectorXd errors() const;  // of the amplitudes
   double size(const Eigen::VectorXd& amplitudes) const;
   double gain(const Eigen::VectorXd& columns, double floor) const;
+  // -ln of the probability of so much gain by chance, if this were the only suspect.
+  double surprise(double gain) const;
   // How much of what its slopes should tell they do tell; below 1 by the noise of the simulation and of the
   // slopes themselves.
   double known_share() const;
@@ -65,7 +68,7 @@ class ScoreTester {
  public:
   // Keeps references to survey and suspects. `draws`: of the calibration.
   ScoreTester(const Survey& survey, const std::vector<Suspect>& suspects,
-              const std::vector<IceParameter>& parameters, int draws, std::uint64_t seed);
+              const std::vector<IceParameter>& parameters, const Draws& draws);
 
   // Effects that change light by less than `floor` are not told from small differences between programs:
   // their gain is 0.
@@ -74,23 +77,23 @@ class ScoreTester {
   // effect can change, of all its places.
   Eigen::VectorXd difference(const Score& score, const std::string& other) const;
   const std::vector<TestedSuspect>& suspects() const { return tested_; }
-  // Gain at which an effect is named with this probability for everything tried.
-  double gain_to_be_named(const std::string& effect, double alpha) const;
-  // Gain at which an effect has this significance [standard deviations] for all its places.
-  double gain_of_significance(const std::string& effect, double sigmas) const;
+  // Gain at which its effect is named with this probability for everything tried.
+  double gain_to_be_named(const TestedSuspect& suspect, double alpha) const;
+  // Gain at which its effect has this significance [standard deviations] for all its places.
+  double gain_of_significance(const TestedSuspect& suspect, double sigmas) const;
 
  private:
   const Survey& survey_;
   std::vector<TestedSuspect> tested_;
-  // By effect, the largest gain of any of its suspects in each draw, and what follows from them.
+  // By effect, the largest surprise of any of its suspects in each draw, and what follows from them.
   std::map<std::string, std::vector<double>> drawn_;
   std::map<std::string, double> ln_number_;
   double ln_number_of_all_ = 0;
 };
 
-// Logarithm of the probability of at least this gain, given what draws gained: beyond most of them it falls
-// as exp(-gain), as that of chi-square does.
-double ln_tail_probability(double gain, const std::vector<double>& drawn);
+// Logarithm of the probability of at least this surprise, given those of draws: beyond most of them it falls
+// exponentially, whatever surprises.
+double ln_tail_probability(double surprise, const std::vector<double>& drawn);
 
 // Standard deviations of a Gaussian that are exceeded, up or down, with this probability.
 double sigmas_of(double ln_p);

@@ -1,6 +1,7 @@
 #include "reco/diagnose/survey.h"
 
 #include <fmt/format.h>
+#include <omp.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -83,14 +84,15 @@ class Surveyor {
                 fmt::format("light of {} and all that could change it", run.name));
     const double photons = photons_wanted(run, look_.hits_per_photon[r], settings_.light);
     const double brightness = look_.brightness[r];
-    const auto [bins, time_zero, scouted] =
+    const auto [bins, scouted_time, scouted] =
         view_run(point_.model(), request(r, 0, photons), run, brightness, settings_.model_error);
 
     SimulatedRun simulated = simulate_run(point_.model(), request(r, 1, photons));
     survey_.photons += scouted + simulated.propagated;
-    delay(simulated, time_zero);
     const RunMeasurement measured =
-        measure_run(simulated, photons, run, bins, {brightness, 0}, settings_.model_error);
+        measure_run_finely(simulated, photons, run, bins, {brightness, scouted_time}, settings_.model_error);
+    const double time_zero = measured.nuisances.time_zero;
+    delay(simulated, time_zero);
     SurveyRun result;
     result.name = run.name;
     result.data = run;
@@ -262,10 +264,14 @@ SurveyCounts measured_counts(const Survey& survey) {
 
 SurveyCounts drawn_counts(const Survey& survey, std::uint64_t seed, std::uint64_t draw) {
   SurveyCounts counts;
-  std::seed_seq sequence{seed, seed >> 32, draw};
+  std::seed_seq sequence{seed, seed >> 32, draw, draw >> 32};  // which takes 32 bits of each
   std::mt19937_64 random(sequence);
   for (const SurveyRun& run : survey.runs) counts.push_back(run.draws.draw(random));
   return counts;
+}
+
+int cores(const Draws& draws) {
+  return draws.threads > 0 ? draws.threads : omp_get_max_threads();
 }
 
 Eigen::VectorXd gap_of(const Survey& survey, const SurveyCounts& counts) {

@@ -68,6 +68,14 @@ struct Survey {
 using SurveyCounts = std::vector<FoldedCounts>;
 SurveyCounts measured_counts(const Survey& survey);
 SurveyCounts drawn_counts(const Survey& survey, std::uint64_t seed, std::uint64_t draw);
+// How much light of the model itself a calibration draws.
+struct Draws {
+  int count = 300;
+  std::uint64_t seed = 1;
+  int threads = 0;  // 0: all cores; the result does not depend on it
+};
+// Of a parallel loop.
+int cores(const Draws& draws);
 
 // By column: sum of weights times what the counts have above the expectation.
 Eigen::VectorXd gap_of(const Survey& survey, const SurveyCounts& counts);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "data/base/error.h"
 #include "propagation/effects/effect.h"
 
 namespace floe {
@@ -48,22 +49,21 @@ bool matters(const Model& model, const IceParameter& parameter) {
   }
 }
 
-// The parameters of an effect at a place that say how much it changes.
-std::vector<std::string> changing_names(const std::string& effect) {
-  if (effect == "geometry-offset") return {"x", "y", "z"};
-  if (effect == "time-offset") return {"time"};
-  return {"factor"};
-}
-
-// A large change of it: no step of a fit is longer.
-double large_change(const std::string& name) {
-  if (name == "factor") return 0.3;
-  return name == "time" ? 10 : 2;  // [ns], [m]
+// A parameter of an effect at a place that says how much it changes.
+struct Changing {
+  const char* name;
+  Kind kind;
+};
+std::vector<Changing> changing(const std::string& effect) {
+  if (effect == "geometry-offset")
+    return {{"x", Kind::string_x}, {"y", Kind::string_y}, {"z", Kind::string_z}};
+  if (effect == "time-offset") return {{"time", Kind::string_time}};
+  return {{"factor", effect == "module-efficiency" ? Kind::module_efficiency : Kind::string_efficiency}};
 }
 
 // A parameter of an effect at a place.
-IceParameter parameter_at_place(const std::string& effect, const std::string& name, const Suspect& suspect,
-                                const Model& base) {
+IceParameter parameter_at_place(const Changing& changing, const Suspect& suspect, const Model& base) {
+  const std::string &effect = suspect.effect, name = changing.name;
   const auto all = find_effect(effect).parameters(parts_of(base));
   std::vector<double> values;
   std::size_t index = 0;
@@ -78,7 +78,7 @@ IceParameter parameter_at_place(const std::string& effect, const std::string& na
   parameter.start = all[index].null_value;
   parameter.low = all[index].low;
   parameter.high = all[index].high;
-  parameter.scale = large_change(name);
+  parameter.scale = large_change(changing.kind);
   parameter.apply = [effect, values, index](double number, ModelParts& model) {
     std::vector<double> at = values;
     at[index] = number;
@@ -87,16 +87,19 @@ IceParameter parameter_at_place(const std::string& effect, const std::string& na
   return parameter;
 }
 
-double within(const IceParameter& parameter, double number) {
-  const double longest = 2 * parameter.scale;
+double within(const IceParameter& parameter, double number, double longest) {
   number = std::clamp(number, parameter.start - longest, parameter.start + longest);
   return std::clamp(number, parameter.low, parameter.high);
+}
+double within(const IceParameter& parameter, double number) {
+  return within(parameter, number, 2 * parameter.scale);
 }
 
 void add_bands(const SuspectPlan& plan, const char* effect, int first, std::vector<Suspect>& suspects) {
   const BandGrid& grid = plan.bands;
-  for (int i = 0; i < grid.groups; ++i)
-    for (int k = i; k < grid.groups && (k - i + 1) * grid.step <= widest_band; ++k) {
+  // Rows beyond follow the outermost layers, which are no bands therefore.
+  for (int i = 1; i < grid.groups - 1; ++i)
+    for (int k = i; k < grid.groups - 1 && (k - i + 1) * grid.step <= widest_band; ++k) {
       Suspect band;
       band.effect = effect;
       band.place = {{"depth", grid.top + (i + k + 1) / 2.0 * grid.step}, {"width", (k - i + 1) * grid.step}};
@@ -114,10 +117,11 @@ DepthRange layers_of(const FlasherDepths& flashers, std::size_t runs) {
   return {flashers.shallowest - beyond, flashers.deepest + beyond, static_cast<int>(std::min(most, runs))};
 }
 
-SuspectPlan plan_suspects(const Model& model, const FlasherDepths& flashers, std::size_t runs) {
+SuspectPlan plan_suspects(const Model& model, const FlasherDepths& flashers, std::size_t runs,
+                          double oversize) {
   SuspectPlan plan;
   for (const Effect* effect : effects()) {
-    if (!is_plain(effect->name())) continue;
+    if (!is_plain(effect->name()) || (effect->name() == "hole-ice" && oversize > 1)) continue;
     for (const EffectParameter& parameter : effect->parameters(parts_of(model))) {
       IceParameter p = effect_parameter(effect->name() + "." + parameter.name, model);
       if (matters(model, p)) plan.parameters.push_back(std::move(p));
@@ -171,8 +175,10 @@ std::vector<Suspect> suspects_of(const Survey& survey, const SuspectPlan& plan) 
   return suspects;
 }
 
-std::vector<IceParameter> fit_parameters(const Suspect& suspect, const Eigen::VectorXd& amplitudes,
-                                         const Model& base) {
+namespace {
+
+std::vector<IceParameter> parameters_from(const Suspect& suspect, const Eigen::VectorXd& amplitudes,
+                                          const Model& base) {
   std::vector<IceParameter> parameters;
   if (suspect.place.count("depth")) {
     for (const char* name : {"depth", "width", "factor"})
@@ -181,11 +187,11 @@ std::vector<IceParameter> fit_parameters(const Suspect& suspect, const Eigen::Ve
     parameters[1].start = suspect.place.at("width");
     parameters[2].start = std::clamp(std::exp(amplitudes(0)), 0.4, 2.5);
   } else if (suspect.place.count("string")) {
-    const std::vector<std::string> names = changing_names(suspect.effect);
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      parameters.push_back(parameter_at_place(suspect.effect, names[i], suspect, base));
-      IceParameter& p = parameters.back();
-      p.start = within(p, p.start + amplitudes(static_cast<Eigen::Index>(i)));
+    Eigen::Index i = 0;
+    for (const Changing& change : changing(suspect.effect)) {
+      IceParameter p = parameter_at_place(change, suspect, base);
+      p.start = within(p, p.start + amplitudes(i++), std::min(suspect.largest, 10 * p.scale));
+      parameters.push_back(std::move(p));
     }
   } else if (suspect.layers) {
     parameters = tilt_parameters(*suspect.layers);
@@ -201,6 +207,46 @@ std::vector<IceParameter> fit_parameters(const Suspect& suspect, const Eigen::Ve
     }
   }
   return parameters;
+}
+
+// Crystals as strong as a first guess may scatter more than a clear layer does.
+void begin_where_ice_can_be(std::vector<IceParameter>& parameters, const Model& base) {
+  constexpr int most_halvings = 6;
+  for (int i = 0;; ++i) try {
+      std::vector<double> numbers;
+      for (const IceParameter& p : parameters) numbers.push_back(p.start);
+      with_parameters(base, parameters, numbers);
+      return;
+    } catch (const InputError&) {
+      if (i == most_halvings) throw;
+      for (IceParameter& p : parameters)
+        if (!is_place_of_band(p)) p.begin_at((p.start + null_number(p, base)) / 2);
+    }
+}
+
+}  // namespace
+
+std::vector<IceParameter> fit_parameters(const Suspect& suspect, const Eigen::VectorXd& amplitudes,
+                                         const Model& base) {
+  std::vector<IceParameter> parameters = parameters_from(suspect, amplitudes, base);
+  begin_where_ice_can_be(parameters, base);
+  return parameters;
+}
+
+double large_change(Kind kind) {
+  switch (kind) {
+    case Kind::string_time:
+      return 10;
+    case Kind::string_x:
+    case Kind::string_y:
+    case Kind::string_z:
+      return 2;
+    case Kind::parameter:
+    case Kind::string_efficiency:
+    case Kind::module_efficiency:
+      break;
+  }
+  return 0.3;
 }
 
 double null_number(const IceParameter& parameter, const Model& base) {

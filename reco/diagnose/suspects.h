@@ -37,15 +37,18 @@ struct SuspectPlan {
   BandGrid bands;
   int first_tilt = 0, first_layer = 0;  // indices of the first slope, of the first group's absorption
 };
-// `runs`: no more layers of an effect that differs from one to the next are told apart.
-SuspectPlan plan_suspects(const Model& model, const FlasherDepths& flashers, std::size_t runs);
+// `runs`: no more layers of an effect that differs from one to the next are told apart. `oversize`: of the
+// simulations; modules that are widened do not see hole ice.
+SuspectPlan plan_suspects(const Model& model, const FlasherDepths& flashers, std::size_t runs,
+                          double oversize);
 
 // Layers that flashers tell apart.
 DepthRange layers_of(const FlasherDepths& flashers, std::size_t runs);
 
 std::vector<Suspect> suspects_of(const Survey& survey, const SuspectPlan& plan);
 
-// Parameters for a fit of this suspect on a base model. They begin where the survey's amplitudes suggest.
+// Parameters for a fit of this suspect on a base model. They begin where the survey's amplitudes suggest, or,
+// where that would be no physical ice, part of the way there. Throws InputError where no part of it is.
 std::vector<IceParameter> fit_parameters(const Suspect& suspect, const Eigen::VectorXd& amplitudes,
                                          const Model& base);
 
@@ -53,6 +56,10 @@ std::vector<IceParameter> fit_parameters(const Suspect& suspect, const Eigen::Ve
 double null_number(const IceParameter& parameter, const Model& base);
 // Depth and width of a band, at which no number changes nothing.
 bool is_place_of_band(const IceParameter& parameter);
+
+// Of what is wrong with one place: no step of a fit is longer [1, ns, m]. Not for parameters, which say it
+// themselves.
+double large_change(SurveyColumn::Kind kind);
 
 // "geometry-offset of string 36", "absorption-layer at 1740-1810 m", "tilt"
 std::string text_of(const Suspect& suspect);

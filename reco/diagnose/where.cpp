@@ -57,14 +57,14 @@ Extreme extreme(const AxisCells& axis, const Residuals& cells) {
 
 // By axis: what half the square of the extreme is in light of the model itself.
 std::vector<std::vector<double>> drawn_extremes(const Survey& survey, const std::vector<Axis>& axes,
-                                                const std::vector<Residuals>& cells, int draws,
-                                                std::uint64_t seed) {
+                                                const std::vector<Residuals>& cells, const Draws& draws) {
   constexpr std::uint64_t first_draw = std::uint64_t{1} << 32;
-  std::vector<std::vector<double>> drawn(axes.size(), std::vector<double>(static_cast<std::size_t>(draws)));
-#pragma omp parallel for schedule(dynamic)
-  for (int d = 0; d < draws; ++d) {
+  std::vector<std::vector<double>> drawn(axes.size(),
+                                         std::vector<double>(static_cast<std::size_t>(draws.count)));
+#pragma omp parallel for schedule(dynamic) num_threads(cores(draws))
+  for (int d = 0; d < draws.count; ++d) {
     const auto draw = static_cast<std::size_t>(d);
-    const VectorXd off = residual_of(survey, drawn_counts(survey, seed, first_draw + draw));
+    const VectorXd off = residual_of(survey, drawn_counts(survey, draws.seed, first_draw + draw));
     for (std::size_t a = 0; a < axes.size(); ++a) {
       const double z = extreme(axes[a], {axes[a].sums(off), cells[a].variance, cells[a].expected}).z;
       drawn[a][draw] = z * z / 2;
@@ -157,21 +157,26 @@ std::string sentence_of(const Region& region, const Axis& axis, const Extreme& a
 
 }  // namespace
 
-Whereabouts where_is_the_gap(const Survey& survey, const std::vector<Axis>& axes, int draws,
-                             std::uint64_t seed) {
+Whereabouts where_is_the_gap(const Survey& survey, const std::vector<Axis>& axes, const Draws& draws) {
   const Residuals all{residual_of(survey, measured_counts(survey)), variance_of(survey), expected_of(survey)};
   std::vector<Residuals> cells;
   for (const Axis& axis : axes) cells.push_back(along(axis, all));
-  const std::vector<std::vector<double>> drawn = drawn_extremes(survey, axes, cells, draws, seed);
+  const std::vector<std::vector<double>> drawn = drawn_extremes(survey, axes, cells, draws);
   Whereabouts where;
-  std::vector<Extreme> extremes;
+  struct Found {
+    std::size_t axis;
+    Extreme at;
+  };
+  std::vector<Found> regions_of;  // by region
   for (std::size_t a = 0; a < axes.size(); ++a) {
     const Extreme at = extreme(axes[a], cells[a]);
+    where.profiles.push_back(profile_of(axes[a], cells[a]));
+    if (at.cells == 0) continue;  // nowhere enough light
     const double ln_p = ln_tail_probability(at.z * at.z / 2, drawn[a]);
     where.regions.push_back(region_of(axes[a], at, cells[a], sigmas_of(ln_p)));
-    extremes.push_back(at);
-    where.profiles.push_back(profile_of(axes[a], cells[a]));
+    regions_of.push_back({a, at});
   }
+  if (where.regions.empty()) return where;
   const auto first = static_cast<std::size_t>(
       std::max_element(where.regions.begin(), where.regions.end(),
                        [](const Region& a, const Region& b) { return a.significance < b.significance; }) -
@@ -179,8 +184,9 @@ Whereabouts where_is_the_gap(const Survey& survey, const std::vector<Axis>& axes
   const auto axis_of = [&](std::string_view name) -> const Axis& {
     return *std::find_if(axes.begin(), axes.end(), [&](const Axis& axis) { return axis.axis == name; });
   };
-  where.regions[first].sentence = sentence_of(where.regions[first], axes[first], extremes[first],
-                                              axis_of("distance"), axis_of("time"), all);
+  const auto [axis, at] = regions_of[first];
+  where.regions[first].sentence =
+      sentence_of(where.regions[first], axes[axis], at, axis_of("distance"), axis_of("time"), all);
   std::stable_sort(where.regions.begin(), where.regions.end(),
                    [](const Region& a, const Region& b) { return a.significance > b.significance; });
   return where;

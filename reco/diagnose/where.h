@@ -1,7 +1,6 @@
 // Where simulation and data disagree: along each of several axes, the region that sticks out the most.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -29,11 +28,10 @@ struct Region {
 
 struct Whereabouts {
   std::vector<ResidualProfile> profiles;
-  std::vector<Region> regions;  // one an axis, the most significant first
+  std::vector<Region> regions;  // one an axis that has light enough anywhere, the most significant first
 };
 
-// `axes`: of the survey. Significances are calibrated with `draws` of the model's own light.
-Whereabouts where_is_the_gap(const Survey& survey, const std::vector<Axis>& axes, int draws,
-                             std::uint64_t seed);
+// `axes`: of the survey. Significances are calibrated with `draws`.
+Whereabouts where_is_the_gap(const Survey& survey, const std::vector<Axis>& axes, const Draws& draws);
 
 }  // namespace floe

@@ -43,6 +43,7 @@ void check(const IceFitOptions& options) {
     throw UsageError("the widths of priors must be positive");
   if (!(options.efficiency_width >= 0 && options.efficiency_width <= 1))
     throw UsageError("the width of efficiencies must be from 0 to 1");
+  if (!(options.pair_light > 0)) throw UsageError("pairs of simulations need light");
   if (options.most_rounds < 1) throw UsageError("a fit needs at least one round");
 }
 
@@ -202,7 +203,8 @@ class Fit {
     const RunBins& bins = state.bins;
     const RunRequest request = this->request(r, 2, photons);
     const SimulatedRun simulated = simulate(point.model(), request, state.time_zero);
-    auto [light, propagated] = point.light(request, simulated, bins, state.time_zero);
+    auto [light, propagated] =
+        point.light(request, simulated, bins, state.time_zero, {.light = options_.pair_light});
     fit_.photons += simulated.propagated + propagated;
 
     const double hits = used_hits(simulated, run);

@@ -22,6 +22,8 @@ struct IceFitOptions : RunSettings {
   // Prior: width of each receiver's relative efficiency about the model's, all of them fitted along; 0:
   // known.
   double efficiency_width = 0;
+  // Of the simulations of slopes that weights of paths cannot give, in units of a run's own.
+  double pair_light = 1;
   int most_rounds = 6;
   bool judged = true;  // by fresh simulations at the end; without, IceFit::runs and neg_llh are missing
 };

@@ -68,14 +68,13 @@ IcePoint::Light IcePoint::light(const RunRequest& request, const SimulatedRun& s
   return result;
 }
 
-// Exactly known, so that both folds may have it.
+// Exactly known in counts; relative to the light of a half it has that half's noise, as other slopes have.
 void IcePoint::add_noise(const RunRequest& request, const RunBins& bins, const OfNoise& slope,
                          RunLight& light) const {
   NoiseWindow window = request.noise;
   window.readouts *= light.photons;
   const auto column = static_cast<Eigen::Index>(slope.parameter);
   light.symmetric[slope.parameter] = 0;
-  light.independent[slope.parameter] = 1;
   for (LightFold& fold : light.folds) {
     fold.dwell.col(column) = fold.counts;
     fold.slopes.col(column) = slope.slope * noise_of_bins(bins, window);

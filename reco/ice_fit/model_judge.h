@@ -37,6 +37,7 @@ class ModelJudge {
 
  private:
   RunRequest request(std::size_t run, std::uint64_t purpose, double photons) const;
+  RunMeasurement measured(const SimulatedRun& simulated, std::size_t run) const;
 
   const FlasherData& data_;
   RunSettings settings_;

@@ -49,7 +49,7 @@ PhotonDraws::PhotonDraws(const SimulatedRun& simulated, const RunBins& bins, dou
     for (; i < hits.size() && hits[i].photon == photon; ++i)
       if (const int bin = bins.bin(hits[i].module, hits[i].time); bin >= 0) bins_.push_back(bin);
     const auto end = static_cast<std::uint32_t>(bins_.size());
-    if (end > first) photons_.push_back({first, end, static_cast<std::uint32_t>(photon & 1)});
+    if (end > first) photons_.push_back({first, end});
   }
 }
 
@@ -61,9 +61,12 @@ FoldedCounts PhotonDraws::draw(std::mt19937_64& random) const {
   const SmallPoisson of_data(scale_), of_simulation(1);
   for (const SeenPhoton& photon : photons_) {
     const int seen = whole_photons_ ? of_data(random) : 0, simulated = of_simulation(random);
+    int even = 0;
+    for (int copy = 0; copy < simulated; ++copy) even += static_cast<int>(random() >> 63);
     for (std::uint32_t i = photon.first; i < photon.end; ++i) {
       counts.data(bins_[i]) += seen;
-      counts.simulated[photon.fold](bins_[i]) += simulated;
+      counts.simulated[0](bins_[i]) += even;
+      counts.simulated[1](bins_[i]) += simulated - even;
       expected(bins_[i]) += scale_;
     }
   }

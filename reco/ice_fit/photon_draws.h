@@ -28,12 +28,13 @@ class PhotonDraws {
   PhotonDraws(const SimulatedRun& simulated, const RunBins& bins, double scale, bool whole_photons,
               double charge_dispersion = 1);
 
+  // Either half is drawn from all photons: what the two happen to differ by in the simulation is no truth
+  // that data could be drawn from.
   FoldedCounts draw(std::mt19937_64& random) const;
 
  private:
   struct SeenPhoton {
     std::uint32_t first, end;  // of bins_
-    std::uint32_t fold;
   };
   int size_ = 0;
   double scale_ = 1;

@@ -9,7 +9,7 @@ namespace floe {
 
 namespace {
 
-constexpr double time_step = 1;  // [ns]
+constexpr double time_step = 1, finest_step = 0.125;  // [ns]
 constexpr int most_steps = 20;
 
 Eigen::VectorXd simulated_counts(const SimulatedRun& simulated, const RunBins& bins, double time_zero) {
@@ -44,6 +44,35 @@ double best_brightness(const ComparedCounts& counts, double brightness, double m
   return brightness;
 }
 
+// Of a run with one simulation, at any time zero.
+class Comparison {
+ public:
+  Comparison(const SimulatedRun& simulated, double photons, const RunData& run, const RunBins& bins,
+             double brightness, double model_error)
+      : simulated_(simulated),
+        bins_(bins),
+        data_(run.counts(bins)),
+        dispersion_(dispersion(simulated)),
+        photons_(photons),
+        brightness_(brightness > 0 ? brightness
+                                   : run.charge * photons / std::max(1.0, used_hits(simulated, run))),
+        model_error_(model_error) {}
+
+  RunMeasurement at(double time_zero) const {
+    RunMeasurement measured = measure_counts(
+        {data_, simulated_counts(simulated_, bins_, time_zero) / dispersion_, photons_ / dispersion_},
+        brightness_, model_error_);
+    measured.nuisances.time_zero = time_zero;
+    return measured;
+  }
+
+ private:
+  const SimulatedRun& simulated_;
+  const RunBins& bins_;
+  Eigen::VectorXd data_;
+  double dispersion_, photons_, brightness_, model_error_;
+};
+
 }  // namespace
 
 double used_hits(const SimulatedRun& simulated, const RunData& run) {
@@ -74,24 +103,29 @@ RunMeasurement measure_counts(const ComparedCounts& counts, double brightness, d
 
 RunMeasurement measure_run(const SimulatedRun& simulated, double photons, const RunData& run,
                            const RunBins& bins, const RunNuisances& start, double model_error) {
-  const double factor = dispersion(simulated);
-  const double first = start.brightness > 0 ? start.brightness
-                                            : run.charge * photons / std::max(1.0, used_hits(simulated, run));
-  const Eigen::VectorXd data = run.counts(bins);
-  const auto at = [&](double time_zero) {
-    RunMeasurement measured = measure_counts(
-        {data, simulated_counts(simulated, bins, time_zero) / factor, photons / factor}, first, model_error);
-    measured.nuisances.time_zero = time_zero;
-    return measured;
-  };
-  // Downhill in steps of the time; finer than the simulation's own noise makes no sense.
-  RunMeasurement best = at(start.time_zero);
+  const Comparison compared(simulated, photons, run, bins, start.brightness, model_error);
+  // Downhill in steps of the time.
+  RunMeasurement best = compared.at(start.time_zero);
   for (const double way : {time_step, -time_step})
     for (int i = 0; i < most_steps; ++i) {
-      const RunMeasurement next = at(best.nuisances.time_zero + way);
+      const RunMeasurement next = compared.at(best.nuisances.time_zero + way);
       if (next.neg_llh >= best.neg_llh) break;
       best = next;
     }
+  return best;
+}
+
+RunMeasurement measure_run_finely(const SimulatedRun& simulated, double photons, const RunData& run,
+                                  const RunBins& bins, const RunNuisances& start, double model_error) {
+  const Comparison compared(simulated, photons, run, bins, start.brightness, model_error);
+  RunMeasurement best = measure_run(simulated, photons, run, bins, start, model_error);
+  for (double step = time_step / 2; step >= finest_step; step /= 2) {
+    const double middle = best.nuisances.time_zero;
+    for (const double way : {step, -step}) {
+      const RunMeasurement next = compared.at(middle + way);
+      if (next.neg_llh < best.neg_llh) best = next;
+    }
+  }
   return best;
 }
 

@@ -1,6 +1,9 @@
 #include "reco/ice_fit/run_plan.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "data/base/error.h"
@@ -44,6 +47,20 @@ FirstLook look_first(const Model& model, const RequestOfRun& request, FlasherDat
     look.brightness.push_back(charge_of_light(model, data.runs[r]) / look.hits_per_photon.back());
   }
   return look;
+}
+
+void leave_out_dark_runs(FlasherData& data, FirstLook& look) {
+  for (std::size_t r = data.runs.size(); r-- > 0;) {
+    if (data.runs[r].charge > 0) continue;
+    data.left_out.push_back(
+        fmt::format("run {}: no receiver is left that could be compared", data.runs[r].name));
+    const auto at = static_cast<std::ptrdiff_t>(r);
+    data.runs.erase(data.runs.begin() + at);
+    look.hits_per_photon.erase(look.hits_per_photon.begin() + at);
+    look.brightness.erase(look.brightness.begin() + at);
+  }
+  if (data.runs.empty())
+    throw NoResult("not enough light: no flasher run has a receiver that could be compared");
 }
 
 void check(const RunSettings& settings) {
@@ -93,11 +110,18 @@ RunBins bins_of(const Scout& scout, const RunData& run, double brightness) {
 
 RunView view_run(const Model& model, const RunRequest& request, const RunData& run, double brightness,
                  double model_error) {
+  constexpr double settled_time = 5;  // [ns]; bins that are less late are as good
+  constexpr int most_searches = 5;
   Scout scout = scout_run(model, request, 0);
-  const RunMeasurement measured =
-      measure_run(scout.simulated, scout.photons, run, bins_of(scout, run, brightness), {}, model_error);
-  delay(scout.simulated, measured.nuisances.time_zero);
-  return {bins_of(scout, run, brightness), measured.nuisances.time_zero, scout.simulated.propagated};
+  double time_zero = 0, shift = 2 * settled_time;
+  for (int i = 0; i < most_searches && std::abs(shift) > settled_time; ++i) {
+    shift = measure_run(scout.simulated, scout.photons, run, bins_of(scout, run, brightness), {brightness, 0},
+                        model_error)
+                .nuisances.time_zero;
+    delay(scout.simulated, shift);
+    time_zero += shift;
+  }
+  return {bins_of(scout, run, brightness), time_zero, scout.simulated.propagated};
 }
 
 }  // namespace floe

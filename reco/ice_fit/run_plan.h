@@ -25,6 +25,9 @@ struct FirstLook {
 // Simulates a little of every run, and leaves out receivers that cannot be right (leave_out_bad_receivers).
 FirstLook look_first(const Model& model, const RequestOfRun& request, FlasherData& data);
 
+// Leaves out runs of which no receiver is left, with a sentence. Throws NoResult when no run is.
+void leave_out_dark_runs(FlasherData& data, FirstLook& look);
+
 struct LightBudget {
   double light = 5;            // simulated light, in units of the data's, at least
   double least_hits = 3e4;     // simulated hits of a run, at least
@@ -64,7 +67,7 @@ Scout scout_run(const Model& model, RunRequest request, double time_zero);
 RunBins bins_of(const Scout& scout, const RunData& run, double brightness);
 
 // How a run is compared with simulations when its time zero is not yet known: a scout finds it, and bins go
-// with it.
+// with it, as late as the light is in the data.
 struct RunView {
   RunBins bins;
   double time_zero = 0;  // [ns]

@@ -18,13 +18,6 @@ namespace {
 constexpr std::uint64_t first_stream = std::uint64_t{1} << 40, streams_a_run = 1 << 10;
 enum Purpose : std::uint64_t { look_stream, bins_stream, grid_stream };
 
-// The base model's time zero, before there are bins that follow it [ns].
-constexpr double settled_time = 5;
-constexpr int most_searches = 5;
-// measure_run() goes in whole nanoseconds. The best time moves along the grid, and bright runs would see
-// steps.
-constexpr double finest_time = 0.125;
-
 void check(const ScanAxis& axis) {
   const IceParameter& p = axis.parameter;
   const double low = p.logarithmic ? std::exp(p.low) : p.low,
@@ -106,22 +99,14 @@ class Scan {
       throw NoResult("not enough light: no flasher run has a receiver that could be compared");
   }
 
-  // Bins follow the light as late as it is in the data.
   RunPlan plan_run(std::size_t r, const FirstLook& look) {
     const RunData& run = data_.runs[r];
     const double photons = photons_wanted(run, look.hits_per_photon[r], options_.light),
                  brightness = look.brightness[r];
-    Scout scout = scout_run(base_, request(r, bins_stream, photons, brightness), 0);
-    scan_.photons += scout.simulated.propagated;
-    double time_zero = 0, shift = 2 * settled_time;
-    for (int i = 0; i < most_searches && std::abs(shift) > settled_time; ++i) {
-      shift = measure_run(scout.simulated, scout.photons, run, bins_of(scout, run, brightness),
-                          {brightness, 0}, options_.model_error)
-                  .nuisances.time_zero;
-      delay(scout.simulated, shift);
-      time_zero += shift;
-    }
-    return {r, photons, bins_of(scout, run, brightness), {brightness, time_zero}};
+    RunView view =
+        view_run(base_, request(r, bins_stream, photons, brightness), run, brightness, options_.model_error);
+    scan_.photons += view.propagated;
+    return {r, photons, std::move(view.bins), {brightness, view.time_zero}};
   }
 
   void measure_point(double x, double y) {
@@ -135,7 +120,8 @@ class Scan {
       const SimulatedRun simulated =
           simulate_run(model, request(plan.run, grid_stream, plan.photons, plan.start.brightness));
       scan_.photons += simulated.propagated;
-      const RunMeasurement best = measure_finely(simulated, plan);
+      const RunMeasurement best = measure_run_finely(simulated, plan.photons, data_.runs[plan.run], plan.bins,
+                                                     plan.start, options_.model_error);
       sum += best.neg_llh;
       halves += difference_of_halves(simulated, plan, best);
       const RunData& run = data_.runs[plan.run];
@@ -146,22 +132,6 @@ class Scan {
     if (sums.empty() || sum < *std::min_element(sums.begin(), sums.end())) scan_.runs = results;
     scan_.neg_llh.values.push_back(sum);
     half_differences_.push_back(halves);
-  }
-
-  RunMeasurement measure_finely(const SimulatedRun& simulated, const RunPlan& plan) const {
-    const RunData& run = data_.runs[plan.run];
-    const auto at = [&](const RunNuisances& start) {
-      return measure_run(simulated, plan.photons, run, plan.bins, start, options_.model_error);
-    };
-    RunMeasurement best = at(plan.start);
-    for (double step = 0.5; step >= finest_time; step /= 2) {
-      const RunNuisances middle = best.nuisances;
-      for (const double way : {step, -step}) {
-        const RunMeasurement next = at({middle.brightness, middle.time_zero + way});
-        if (next.neg_llh < best.neg_llh) best = next;
-      }
-    }
-    return best;
   }
 
   // The likelihood heeds simulation the less the less there is of it: a deviation counts 1/(1 + 1/r), r being

@@ -68,9 +68,13 @@ std::vector<ReferenceSet> reference_sets() {
           {"cascade-50tev", bfr, {}, Kind::cascade, {}, 0}};
 }
 
+std::filesystem::path reference_file(const ReferenceSet& set, const ValidationOptions& options) {
+  return options.reference / (set.name + ".hits.gz");
+}
+
 ValidationResult validate_set(const ReferenceSet& set, const ValidationOptions& options,
                               const Progress& progress) {
-  const EventFile reference = read_event_file(options.reference / (set.name + ".hits.gz"));
+  const EventFile reference = read_event_file(reference_file(set, options));
   ModelRequest request;
   request.ice = (options.ice_models / set.ice).string();
   request.without = set.without;

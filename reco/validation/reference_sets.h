@@ -43,6 +43,9 @@ struct ValidationResult {
   bool passes() const { return total_passes && modules_pass && times_pass && directions_pass; }
 };
 
+// The set's file of hits.
+std::filesystem::path reference_file(const ReferenceSet& set, const ValidationOptions& options);
+
 // Totals must agree within 2% (or 3 standard errors where these are larger), hits per module with
 // chi-square p > 0.001, times and directions of arrival with KS p > 0.001 over the number of modules tried.
 ValidationResult validate_set(const ReferenceSet& set, const ValidationOptions& options,

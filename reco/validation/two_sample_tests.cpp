@@ -10,6 +10,15 @@ double chi_square_probability(double chi_square, double degrees) {
   return Eigen::numext::igammac(degrees / 2, chi_square / 2);
 }
 
+double ln_chi_square_probability(double chi_square, double degrees) {
+  constexpr double smallest = 1e-280;
+  const double x = chi_square / 2, a = degrees / 2;
+  const double probability = Eigen::numext::igammac(a, x);
+  if (probability > smallest) return std::log(probability);
+  // x is hundreds here: the first two terms of the asymptotic series (Abramowitz and Stegun 6.5.32).
+  return (a - 1) * std::log(x) - x - std::lgamma(a) + std::log1p((a - 1) / x);
+}
+
 namespace {
 // Kolmogorov's distribution: 2 sum_k (-1)^(k-1) exp(-2 k^2 x^2).
 double kolmogorov_probability(double x) {

@@ -54,6 +54,10 @@ TEST(RowJournal, RefusesWhatIsNoJournal) {
   const auto path = folder.path() / "text";
   std::ofstream(path) << "a text\nof two lines\n";
   EXPECT_THROW(RowJournal(path, heading, RowJournal::Mismatch::start_again), InputError);
+  const auto one_line = folder.path() / "one-line";
+  std::ofstream(one_line) << "{\"results\":[1,2]}";
+  EXPECT_THROW(RowJournal(one_line, heading, RowJournal::Mismatch::start_again), InputError);
+  EXPECT_EQ(std::filesystem::file_size(one_line), 17u);
   EXPECT_THROW(RowJournal(folder.path() / "none" / "rows", heading, RowJournal::Mismatch::error),
                OutputError);
 }

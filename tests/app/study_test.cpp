@@ -111,7 +111,7 @@ TEST_F(Study, FitsWithAnotherModelAsWell) {
   std::string heading, row;
   std::getline(lines, heading);
   std::getline(lines, row);
-  EXPECT_NE(Json::parse(heading)["fit_ice"], Json::parse(heading)["ice"]);
+  EXPECT_NE(Json::parse(heading)["fit_model"], Json::parse(heading)["model"]);
   for (const char* key : {"other", "delta_neg_llh", "delta_neg_llh_error"})
     EXPECT_TRUE(Json::parse(row).contains(key)) << key;
 }
@@ -158,8 +158,8 @@ TEST_F(Study, DoesNotMixRowsOfOtherSettings) {
   const auto before = files_in(folder_.path());
   expect_error(study(group + "--seed 2 --json x.json"), 2, "rows: found rows of a run with seed 1, not 2");
   expect_error(study(group + "--effort 0.1 --json x.json"), 2, "with effort 0.02, not 0.1");
-  expect_error(study(group + "--without birefringence -o x.svg"), 2, "with ice ");
-  expect_error(study(group + "--fit-without birefringence -o x.svg"), 2, "with fit_ice null, not ");
+  expect_error(study(group + "--without birefringence -o x.svg"), 2, "with model ");
+  expect_error(study(group + "--fit-without birefringence -o x.svg"), 2, "with fit_model null, not ");
   expect_error(study("--rows rows --group 1,1,10 -o x.svg"), 2, "with oversize ");
   expect_error(study(group + "--pulses -o x.svg"), 2, "with response unknown, not ");
   EXPECT_EQ(text_of("rows"), rows);

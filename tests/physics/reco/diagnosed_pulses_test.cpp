@@ -64,11 +64,11 @@ class RecordedFlashes : public ::testing::Test {
 
 TEST_F(RecordedFlashes, BirefringenceIsNamedWhereItIsMissing) {
   const Model base = model_without({"birefringence"});
-  const SuspectPlan plan = plan_suspects(base, flasher_depths(data_, *base.detector), data_.runs.size());
+  const SuspectPlan plan = plan_suspects(base, flasher_depths(data_, *base.detector), data_.runs.size(), 16);
   const Survey survey = survey_of(base, {.parameters = plan.parameters, .places = false});
   const std::vector<Suspect> suspects = suspects_of(survey, plan);
   const ScoreTest test =
-      ScoreTester(survey, suspects, plan.parameters, 200, 1).test(measured_counts(survey), 0.005);
+      ScoreTester(survey, suspects, plan.parameters, Draws{200, 1}).test(measured_counts(survey), 0.005);
   ASSERT_FALSE(test.effects.empty());
   EXPECT_EQ(test.effects.front().best.suspect.effect, "birefringence")
       << text_of(test.effects.front().best.suspect);
@@ -80,7 +80,7 @@ TEST_F(RecordedFlashes, AgreeWithTheTrueModel) {
   const std::vector<IceParameter> none;
   settings_.light.light = 4;
   const Survey survey = survey_of(model_without({}), {.parameters = none, .places = false});
-  const ExpectedFit right = expected_fit(survey, 200, 1);
+  const ExpectedFit right = expected_fit(survey, {200, 1});
   EXPECT_NEAR(total_neg_llh(survey, measured_counts(survey)), right.mean, 3.5 * right.scatter);
   // In the light's brightness, too: as many photons as were emitted.
   for (const SurveyRun& run : survey.runs)

@@ -197,7 +197,7 @@ TEST_F(ASurvey, KnowsHowMuchLightTellsEffectsApart) {
   };
   const std::vector<Suspect> suspects{suspect("module-efficiency", Kind::module_efficiency, 36, 21),
                                       suspect("string-efficiency", Kind::string_efficiency, 36, 0)};
-  const ScoreTester tester(survey_, suspects, parameters_, 50, 1);
+  const ScoreTester tester(survey_, suspects, parameters_, Draws{50, 1});
   Score score{suspects[0], 0, Eigen::VectorXd::Constant(1, change)};
   const auto apart = [&] {
     return separation(survey_, axes_of(model_, survey_), tester.difference(score, "string-efficiency"), "one",

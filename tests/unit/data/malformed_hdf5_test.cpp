@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "data/base/error.h"
+#include "data/event_stream.h"
+#include "data/hdf5_readout_schema.h"
 #include "data/hdf5_schema.h"
 #include "tests/unit/data/sample_events.h"
 #include "tests/unit/data/temporary_folder.h"
@@ -267,6 +269,34 @@ TEST(Hdf5MadeElsewhereTest, TextOfVariableLengthIsReadToo) {
     set_attribute(file, "ice_name", type, &name);
   }
   EXPECT_EQ(read_event_file(path).provenance->ice_name, "my own ice");
+}
+
+// Rows beside pulses are found by their event: out of order, half of them would be passed over in silence.
+TEST(Hdf5MadeElsewhereTest, RowsBesidePulsesGoByEvent) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "pulses.h5";
+  Provenance provenance = sample_provenance();
+  provenance.pulses = true;
+  {
+    EventFileWriter writer(path, provenance);
+    for (const char* id : {"one", "two"}) {
+      Event event;
+      event.id = id;
+      event.readout = Readout{
+          0, 9, {}, {{{1, 2}, 1, 2}}, std::make_shared<const RecordingModules>(RecordingModules{{{1, 2}}}),
+          {}};
+      writer.begin_event(event);
+    }
+    writer.close();
+  }
+  EXPECT_EQ(read_event_file(path).events.size(), 2u);
+  edit_row<UnusableRow>(editable(path), 0, [](auto& row) { row.event = 1; });
+  edit_row<UnusableRow>(editable(path), 1, [](auto& row) { row.event = 0; });
+  EXPECT_NE(message_of<InputError>([&] { read_event_file(path); }).find("event 0 in row 1 of 'unusable'"),
+            std::string::npos);
+  edit_row<UnusableRow>(editable(path), 1, [](auto& row) { row.event = 2; });
+  EXPECT_NE(message_of<InputError>([&] { read_event_file(path); }).find("event 2 in row 1"),
+            std::string::npos);
 }
 
 }  // namespace floe

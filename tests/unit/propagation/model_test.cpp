@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "data/base/error.h"
+#include "propagation/model_hash.h"
 #include "tests/unit/propagation/ice/ice_directory.h"
 
 namespace floe {
@@ -202,6 +203,34 @@ TEST(LoadModel, PublicModels) {
     EXPECT_EQ(model.acceptance.angular.maximum(), 0.68);
     EXPECT_EQ(model.acceptance.high_qe.has_value(), std::string(name) == "spice_ftp-v3m");
   }
+}
+
+// Models of one name give the same light.
+TEST(ModelHash, ChangesWithEveryPart) {
+  const Model model = load_model({});
+  const std::string same = model_hash(model);
+  EXPECT_EQ(same, model_hash(load_model({})));
+  const auto with = [](const std::string& setting) {
+    ModelRequest request;
+    request.with = {parse_effect_setting(setting)};
+    return model_hash(load_model(request));
+  };
+  for (const char* setting : {"absorption-scale.factor=1.1", "angular-acceptance.slope=0.2",
+                              "flasher-profile.width=1.2", "noise.rate=500"})
+    EXPECT_NE(with(setting), same) << setting;
+  Model other = model;
+  other.acceptance.high_qe = HighQeRatio({{300, 1.3}, {600, 1.4}});
+  EXPECT_NE(model_hash(other), same);
+  other = model;
+  other.acceptance.spectrum = WavelengthSpectrum({{0, 300}, {1, 601}});
+  EXPECT_NE(model_hash(other), same);
+}
+
+// What a directory's floe.toml says of the ice is told from what its files cannot hold.
+TEST(ChangesIce, TellsEffectsOfIceFromOthers) {
+  const Model model = load_model({});
+  EXPECT_TRUE(changes_ice({parse_effect_setting("absorption-scale.factor=1.1")}, model));
+  EXPECT_FALSE(changes_ice({parse_effect_setting("noise.rate=500")}, model));
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ TEST_F(Contest, ThePlaceOfABandIsNoChange) {
   Trial trial;
   for (const char* name : {"depth", "width", "factor"})
     trial.parameters.push_back(effect_parameter(std::string("absorption-layer.") + name, base_));
-  EXPECT_NEAR(chi_square_of(trial, fit_with({1700, 80, 1.6}, {3, 7, 0.1}), 0, base_), 36, 1e-9);
+  EXPECT_NEAR(chi_square_of(trial.parameters, fit_with({1700, 80, 1.6}, {3, 7, 0.1}), 0, base_), 36, 1e-9);
 }
 
 TEST(Distance, KnowsCorrelations) {

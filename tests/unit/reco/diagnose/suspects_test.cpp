@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 
@@ -48,7 +50,7 @@ TEST(Probabilities, BeyondTheDrawsFallExponentially) {
 class Suspects : public ::testing::Test {
  protected:
   const Model model_ = load_model({});
-  const SuspectPlan plan_ = plan_suspects(model_, {1700, 1900}, 3);
+  const SuspectPlan plan_ = plan_suspects(model_, {1700, 1900}, 3, 1);
 
   bool planned(const std::string& name) const {
     return std::any_of(plan_.parameters.begin(), plan_.parameters.end(),
@@ -69,6 +71,82 @@ TEST_F(Suspects, AreTheEffectsThatTheDataCanTell) {
     EXPECT_FALSE(planned(name)) << name;
   // Where there is no hole ice, its scattering length changes nothing.
   EXPECT_FALSE(planned("hole-ice.scattering"));
+}
+
+TEST_F(Suspects, HoleIceIsNoneWhereModulesAreWidened) {
+  for (const IceParameter& p : plan_suspects(model_, {1700, 1900}, 3, 16).parameters)
+    EXPECT_FALSE(p.name.starts_with("hole-ice")) << p.name;
+}
+
+// Rows beyond follow the outermost layers of a fit.
+TEST_F(Suspects, BandsReachNoFurtherThanTheirOwnLayers) {
+  Survey survey;
+  for (std::size_t p = 0; p < plan_.parameters.size(); ++p)
+    survey.columns.push_back({SurveyColumn::Kind::parameter, p, 0, 0});
+  const int outermost[] = {plan_.first_layer, plan_.first_layer + plan_.bands.groups - 1};
+  int bands = 0;
+  for (const Suspect& suspect : suspects_of(survey, plan_)) {
+    if (suspect.effect != "absorption-layer") continue;
+    ++bands;
+    for (const auto& [column, weight] : suspect.amplitudes[0])
+      for (const int at : outermost) EXPECT_NE(column, at);
+  }
+  EXPECT_GT(bands, 20);
+}
+
+// Crystals as strong as a first guess scatter more than clear layers do: the fit begins part of the way
+// there.
+TEST_F(Suspects, BeginWhereIceCanBe) {
+  ModelRequest request;
+  request.without = {"birefringence"};
+  const Model base = load_model(request);
+  const Suspect crystals{"birefringence", {}, {{{0, 1.0}}}};
+  const auto begin = fit_parameters(crystals, Eigen::VectorXd::Constant(1, 1e3), base);
+  ASSERT_EQ(begin.size(), 1u);
+  EXPECT_GT(begin[0].start, 0);
+  with_parameters(base, begin, {begin[0].start});
+}
+
+// The most likely amplitudes within the limits, and what they gain.
+TEST(TestedSuspects, KeepToTheirLimits) {
+  const Suspect suspect{"geometry-offset", {{"string", 36}}, {{{0, 1.0}}, {{1, 1.0}}}};
+  TestedSuspect tested{.suspect = &suspect,
+                       .information = (Eigen::Matrix2d() << 2, 1, 1, 2).finished(),
+                       .noise = (Eigen::Matrix2d() << 3, 1, 1, 2.5).finished(),
+                       .inverse_information = {},
+                       .inverse_noise = {},
+                       .low = Eigen::Vector2d(-1, -1),
+                       .high = Eigen::Vector2d(1, 1),
+                       .light = 1,
+                       .degrees = 2};
+  tested.inverse_information = tested.information.inverse();
+  tested.inverse_noise = tested.noise.inverse();
+  const auto gain_at = [&](const Eigen::Vector2d& gap, const Eigen::Vector2d& at) {
+    const Eigen::Vector2d expected = tested.information * at;
+    return expected.dot(tested.inverse_noise * (gap - expected / 2));
+  };
+  const Eigen::Vector2d inside(0.8, -0.3);
+  EXPECT_LT((tested.amplitudes(inside) - tested.inverse_information * inside).norm(), 1e-12);
+  EXPECT_NEAR(tested.gain(inside, 0), inside.dot(tested.inverse_noise * inside) / 2, 1e-12);
+  const Eigen::Vector2d outside(4, -1);
+  double most = 0;
+  for (int x = -100; x <= 100; ++x)
+    for (int y = -100; y <= 100; ++y) most = std::max(most, gain_at(outside, {x / 100.0, y / 100.0}));
+  EXPECT_NEAR(tested.gain(outside, 0), most, 1e-3 * most);
+  EXPECT_LE(tested.amplitudes(outside).cwiseAbs().maxCoeff(), 1);
+  EXPECT_EQ(tested.gain(inside, 10), 0);  // changes light by less than the floor
+}
+
+// Twice the gain of k amplitudes is chi-square of k degrees.
+TEST(TestedSuspects, AreSurprisingByTheNumberOfTheirAmplitudes) {
+  TestedSuspect tested{};
+  tested.degrees = 2;
+  EXPECT_NEAR(tested.surprise(12), 12, 1e-9);
+  tested.degrees = 6;  // exp(-x) (1 + x + x^2/2)
+  EXPECT_NEAR(tested.surprise(12), 12 - std::log(1 + 12 + 72), 1e-9);
+  EXPECT_NEAR(tested.surprise(2000), 2000 - std::log(1 + 2000 + 2e6), 1e-3);
+  tested.degrees = 1;
+  EXPECT_NEAR(tested.surprise(8), -ln_p_of(4), 1e-6);
 }
 
 TEST_F(Suspects, BandsLieWithinTheDepthsThatFlashersReach) {

@@ -53,6 +53,19 @@ TEST_F(PhotonDrawsTest, MeanIsWhatWasSimulated) {
   EXPECT_NEAR(of_even.mean, photons / 4, 4 * std::sqrt(photons / 4.0 / number_));
 }
 
+// Scores with weights of one half judge the other: halves that differ in the simulation must not in draws.
+TEST_F(PhotonDrawsTest, HalvesAreAlike) {
+  SimulatedRun even_only = light_;
+  for (SimulatedHit& hit : even_only.hits) hit.photon *= 2;
+  const PhotonDraws draws(even_only, bins_, 1, true);
+  for (const std::size_t half : {0, 1}) {
+    const auto of_half =
+        moments_of(draws, number_, [&](const FoldedCounts& c) { return c.simulated[half](0); });
+    EXPECT_NEAR(of_half.mean, photons / 2, 4 * std::sqrt(photons / 2.0 / number_));
+    EXPECT_NEAR(of_half.variance / (photons / 2.0), 1, 5 * std::sqrt(2.0 / number_));
+  }
+}
+
 // A photon that is seen twice counts twice, or not at all: the variance of the sum over both modules is
 // 1^2 n/2 + 2^2 n/2 times the scale.
 TEST_F(PhotonDrawsTest, WholePhotonsAreDrawn) {
