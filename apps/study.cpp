@@ -16,6 +16,7 @@
 #include "data/base/error.h"
 #include "data/base/hash.h"
 #include "propagation/model_hash.h"
+#include "reco/study/bias.h"
 #include "reco/study/summary.h"
 #include "response/response_file.h"
 
@@ -162,32 +163,31 @@ Json table_json(const StudyTable& table) {
           {"contested", table.contested}, {"lines", lines},         {"failures", table.failures}};
 }
 
+Json chi_square_json(const StudyChiSquare& sum) {
+  return {{"value", sum.value}, {"degrees", sum.degrees}, {"probability", sum.probability()}};
+}
+
+Json bias_json(const ModelBias& bias) {
+  return {{"median_angle_deg", bias.median_angle / degree},
+          {"mean_log_energy", bias.mean_log_energy},
+          {"mean_log_energy_error", bias.mean_log_energy_error},
+          {"chi_square",
+           {{"direction", chi_square_json(bias.direction)},
+            {"energy", chi_square_json(bias.energy)},
+            {"all", chi_square_json(bias.all)}}}};
+}
+
 Json bias_json(const StudyBias& bias, const StudySettings& settings) {
   return {{"model", to_json(*settings.other)},
           {"events", bias.events},
-          {"median_angle_deg", bias.median_angle / degree},
-          {"median_angle_truth_deg", bias.median_angle_truth / degree},
-          {"mean_log_energy", bias.mean_log_energy},
-          {"mean_log_energy_error", bias.mean_log_energy_error},
-          {"mean_log_energy_truth", bias.mean_log_energy_truth},
-          {"mean_log_energy_truth_error", bias.mean_log_energy_truth_error},
+          {"other", bias_json(bias.other)},
+          {"truth", bias_json(bias.truth)},
           {"mean_delta_neg_llh", bias.mean_delta},
           {"mean_delta_neg_llh_error", bias.mean_delta_error},
+          {"sum_delta_neg_llh", bias.sum_delta},
+          {"sum_delta_neg_llh_error", bias.sum_delta_error},
           {"median_significance", bias.median_significance},
           {"least_significance", bias.least_significance}};
-}
-
-std::string bias_words(const StudyBias& bias) {
-  if (bias.events == 0) return "Fitted with the other model: no event\n";
-  return fmt::format(
-      "Fitted with the other model: {} events\n"
-      "  angle from the truth, median: {:.2f} deg (with the true model {:.2f} deg)\n"
-      "  energy, mean of ln(fit/truth): {:+.4f} +- {:.4f} (with the true model {:+.4f} +- {:.4f})\n"
-      "  -ln L larger by {:.1f} +- {:.1f} an event; in units of its simulation error {:.1f} (median), {:.1f} "
-      "(least)\n",
-      bias.events, bias.median_angle / degree, bias.median_angle_truth / degree, bias.mean_log_energy,
-      bias.mean_log_energy_error, bias.mean_log_energy_truth, bias.mean_log_energy_truth_error,
-      bias.mean_delta, bias.mean_delta_error, bias.median_significance, bias.least_significance);
 }
 
 void run_study(const StudyCommand& command) {
@@ -221,7 +221,7 @@ void run_study(const StudyCommand& command) {
   Json results = {{"model", to_json(settings.truth)}, {"seed", settings.seed}, {"tables", tables}};
   if (settings.other) {
     const StudyBias bias = summarise_bias(rows);
-    text += bias_words(bias);
+    text += text_of(bias);
     results["other"] = bias_json(bias, settings);
   }
   json.write(json_text(results));

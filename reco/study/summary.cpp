@@ -88,11 +88,11 @@ class LineBuilder {
   std::size_t inside_ = 0;
 };
 
+}  // namespace
+
 bool is_fitted(const StudyFit& fit) {
   return is_usable(fit.status) && fit.covariance.allFinite();
 }
-
-}  // namespace
 
 double median(std::vector<double> values) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
@@ -156,37 +156,6 @@ StudyTable summarise(std::span<const StudyRow> rows, const std::string& title) {
   for (const LineBuilder& line : lines) table.lines.push_back(line.line());
   for (const LineBuilder* line : {&position, &direction, &pooled}) table.lines.push_back(line->line());
   return table;
-}
-
-StudyBias summarise_bias(std::span<const StudyRow> rows) {
-  StudyBias bias;
-  std::vector<double> angles, angles_truth, energies, energies_truth, deltas, significances;
-  for (const StudyRow& row : rows) {
-    if (!row.other || !is_fitted(row.fit) || !is_fitted(*row.other)) continue;
-    ++bias.events;
-    angles.push_back(angle_between(row.other->cascade, row.truth));
-    angles_truth.push_back(angle_between(row.fit.cascade, row.truth));
-    energies.push_back(std::log(row.other->cascade.energy / row.truth.energy));
-    energies_truth.push_back(std::log(row.fit.cascade.energy / row.truth.energy));
-    deltas.push_back(row.delta_neg_llh);
-    significances.push_back(row.delta_neg_llh / row.delta_neg_llh_error);
-  }
-  if (bias.events == 0) return bias;
-  const auto mean_with_error = [](const std::vector<double>& values, double& mean, double& error) {
-    const double n = double(values.size());
-    mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
-    double square = 0;
-    for (const double value : values) square += (value - mean) * (value - mean);
-    error = n > 1 ? std::sqrt(square / (n * (n - 1))) : std::numeric_limits<double>::quiet_NaN();
-  };
-  bias.median_angle = median(angles);
-  bias.median_angle_truth = median(angles_truth);
-  mean_with_error(energies, bias.mean_log_energy, bias.mean_log_energy_error);
-  mean_with_error(energies_truth, bias.mean_log_energy_truth, bias.mean_log_energy_truth_error);
-  mean_with_error(deltas, bias.mean_delta, bias.mean_delta_error);
-  bias.least_significance = *std::min_element(significances.begin(), significances.end());
-  bias.median_significance = median(significances);
-  return bias;
 }
 
 std::string text_of(const StudyTable& table) {

@@ -19,6 +19,9 @@ struct StudyResiduals {
 };
 StudyResiduals residuals_of(const StudyRow& row, const StudyFit& fit);
 
+// Whether a study has numbers to judge: the fit ended, with errors.
+bool is_fitted(const StudyFit& fit);
+
 // Of an even number of values, the middle between the two; not a number of none.
 double median(std::vector<double> values);
 
@@ -52,17 +55,6 @@ struct StudyTable {
 
 // Over all rows, or those of one energy.
 StudyTable summarise(std::span<const StudyRow> rows, const std::string& title);
-
-// The fit with the other model: what it gets wrong, and how much worse it describes the data.
-struct StudyBias {
-  std::size_t events = 0;
-  double median_angle = 0, median_angle_truth = 0;  // from the truth [rad], with the other and the true model
-  double mean_log_energy = 0, mean_log_energy_error = 0;              // ln(E/truth), other model
-  double mean_log_energy_truth = 0, mean_log_energy_truth_error = 0;  // the true one
-  double mean_delta = 0, mean_delta_error = 0;                        // of -ln L, other - truth
-  double least_significance = 0, median_significance = 0;  // of delta in units of its simulation error
-};
-StudyBias summarise_bias(std::span<const StudyRow> rows);
 
 std::string text_of(const StudyTable& table);
 
