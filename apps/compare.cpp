@@ -171,9 +171,6 @@ ModelComparison compare_event(const Models& models, const Event& event, const Co
 void run_compare(const CompareOptions& options) {
   const auto requests = model_requests(options);
   const FitOptions fit = to_fit_options(options.fit);
-  if (options.picture && !options.picture->ends_with(".svg"))
-    throw UsageError(
-        fmt::format("--picture: found \"{}\"; expected a name that ends in .svg", *options.picture));
   PlannedOutput json(options.output.json);
   const std::vector<Event> events = read_events(options.files);
   std::vector<std::unique_ptr<PlannedOutput>> pictures;
@@ -223,10 +220,10 @@ void add_compare(CLI::App& floe) {
       ->description("B is A without these effects; floe info --help lists them");
   add_effect_settings(app, "--with", "B is A with this changed; floe effects lists what there is",
                       options->with);
-  app.add_option("-o,--picture", options->picture,
-                 "Picture of the data and both fits: arrival times in the brightest modules; of several "
-                 "events, FILE-1.svg, FILE-2.svg, ...")
-      ->type_name("FILE.svg");
+  add_picture(app, "-o,--picture",
+              "Picture of the data and both fits: arrival times in the brightest modules; of several "
+              "events, FILE-1.svg, FILE-2.svg, ...",
+              options->picture);
   add_fit_options(app, options->fit);
   add_output_options(app, options->output);
   app.footer(

@@ -102,9 +102,6 @@ std::vector<CrystalStudy> plan(const CrystalCommand& command) {
 }
 
 void check_usage(const CrystalCommand& command, const std::vector<CrystalStudy>& planned) {
-  if (command.picture && !command.picture->ends_with(".svg"))
-    throw UsageError(
-        fmt::format("--picture: found \"{}\"; expected a name that ends in .svg", *command.picture));
   const char* of_one = command.picture ? "--picture" : command.ice.folder ? "--into" : nullptr;
   if (of_one && planned.size() > 1)
     throw UsageError(fmt::format("{} is of one kind of ice; found {} of them", of_one, planned.size()));
@@ -241,8 +238,7 @@ void add_crystal(CLI::App& floe, const std::string& command_line) {
   add_merge_option(app, *command);
   app.add_option("-o,--output", command->output, "File for patterns, their numbers and all photons")
       ->type_name("FILE.h5");
-  app.add_option("--picture", command->picture, "Patterns on the sphere; deflection and widths")
-      ->type_name("FILE.svg");
+  add_picture(app, "--picture", "Patterns on the sphere; deflection and widths", command->picture);
   add_crystal_ice_options(app, command->ice);
   add_output_options(app, command->printed);
   app.footer(

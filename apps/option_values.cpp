@@ -93,4 +93,14 @@ CLI::Option* add_integer(CLI::App& app, const std::string& name, std::int64_t lo
       ->type_name("N");
 }
 
+CLI::Option* add_picture(CLI::App& app, const std::string& name, const std::string& description,
+                         std::optional<std::string>& path) {
+  const auto set = [&path, option = split_list(name).back()](const std::string& text) {
+    if (!text.ends_with(".svg"))
+      throw UsageError(fmt::format("{}: found \"{}\"; expected a name that ends in .svg", option, text));
+    path = text;
+  };
+  return app.add_option_function<std::string>(name, set, description)->type_name("FILE.svg");
+}
+
 }  // namespace floe

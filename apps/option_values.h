@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,5 +40,8 @@ CLI::Option* add_number(CLI::App& app, const std::string& name, const std::strin
                         const std::string& description, double& value);
 CLI::Option* add_integer(CLI::App& app, const std::string& name, std::int64_t low, std::int64_t high,
                          const std::string& description, std::function<void(std::int64_t)> set);
+// Adds an option that names a picture to write, which has to end in .svg.
+CLI::Option* add_picture(CLI::App& app, const std::string& name, const std::string& description,
+                         std::optional<std::string>& path);
 
 }  // namespace floe

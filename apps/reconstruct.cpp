@@ -12,6 +12,7 @@
 #include "apps/fit_options.h"
 #include "apps/model_json.h"
 #include "apps/model_warnings.h"
+#include "apps/option_values.h"
 #include "apps/parallel_events.h"
 #include "apps/planned_output.h"
 #include "apps/progress_bar.h"
@@ -254,8 +255,7 @@ void add_reconstruct(CLI::App& floe) {
   add_output_options(app, options->output);
   app.add_option("--skymap", options->sky_map, "Write maps of -ln L over directions to this file")
       ->type_name("FILE.h5");
-  app.add_option("--skymap-picture", options->sky_map_picture, "Draw the map, of one event")
-      ->type_name("FILE.svg");
+  add_picture(app, "--skymap-picture", "Draw the map, of one event", options->sky_map_picture);
   app.add_flag("--profile", options->profile, "Intervals of the profile likelihood: errors on both sides");
   app.footer(
       "Examples:\n"

@@ -187,41 +187,63 @@ void respond_to_all(const EventFileReader& reader, const DetectorResponse& respo
   });
 }
 
-void run_respond(const RespondOptions& options, const std::string& command_line) {
-  const ResponseSettings settings =
-      options.response ? read_response_file(*options.response) : ResponseSettings();
+void check_usage(const RespondOptions& options) {
   if (options.write_response) {
     if (!options.from.empty() || !options.to.empty())
       throw UsageError("--write-response writes settings and nothing else: leave EVENTS and --output out");
-    write_whole_file(*options.write_response, response_file_text(settings));
     return;
   }
   if (options.from.empty() || options.to.empty())
     throw UsageError("give EVENTS.h5 and -o FILE.h5, or --write-response FILE.toml");
   require_event_file_name(options.to);
-  const Kept kept = parse_kept(options.keep);
-  PlannedOutput json(options.output.json);
-  if (!is_hdf5(options.from))
-    throw InputError({options.from}, "a file that is not HDF5", "an event file of floe",
-                     "floe import makes one of a text of hits");
-  const Model model = load_model(options.model);
-  const Detector& detector = *model.detector;
+}
+
+std::vector<ModuleId> modules_off(const RespondOptions& options) {
   std::vector<ModuleId> off;
   for (const std::string& text : options.off)
     for (const ModuleId id : parse_modules("--off", text)) off.push_back(id);
+  return off;
+}
 
-  const EventFileReader reader(options.from);
-  const Provenance& input = reader.provenance();
+void expect_hdf5(const std::string& name) {
+  if (!is_hdf5(name))
+    throw InputError({name}, "a file that is not HDF5", "an event file of floe",
+                     "floe import makes one of a text of hits");
+}
+
+void check_input(const std::string& name, const Provenance& input, const Detector& detector) {
   if (input.pulses)
-    throw InputError({options.from}, "pulses, which are no photons", "an event file with photons",
+    throw InputError({name}, "pulses, which are no photons", "an event file with photons",
                      "What floe respond writes has been through the electronics already");
   if (!input.detector_hash.empty() && input.detector_hash != detector.hash())
     fmt::print(stderr,
                "floe: warning: {}: events of detector {}, not of {}; name it with --ice or --detector\n",
-               options.from, input.detector_name, detector.name());
+               name, input.detector_name, detector.name());
+}
+
+Json results_of(const RespondOptions& options, const EventParts& parts, std::size_t events) {
+  Json results = {{"output", options.to}, {"seed", options.settings.seed}, {"events", Json::array()}};
+  for (std::size_t i = 0; i < events; ++i) {
+    results["events"].push_back(*parts.row(i));
+    results["events"].back().erase("event_row");
+  }
+  return results;
+}
+
+void respond_to_file(const RespondOptions& options, const ResponseSettings& settings,
+                     const std::string& command_line) {
+  const Kept kept = parse_kept(options.keep);
+  PlannedOutput json(options.output.json);
+  expect_hdf5(options.from);
+  const Model model = load_model(options.model);
+  const Detector& detector = *model.detector;
+  const std::vector<ModuleId> off = modules_off(options);
+  const EventFileReader reader(options.from);
+  check_input(options.from, reader.provenance(), detector);
   const DetectorResponse response(detector, settings, options.settings.seed, off);
-  const Json configuration = configuration_of(options, settings, off, detector, input);
-  const Provenance provenance = provenance_of(options, configuration, detector, input, command_line);
+  const Json configuration = configuration_of(options, settings, off, detector, reader.provenance());
+  const Provenance provenance =
+      provenance_of(options, configuration, detector, reader.provenance(), command_line);
   EventParts parts(options.to,
                    {{"journal", "floe respond 1"},
                     {"version", FLOE_VERSION},
@@ -232,16 +254,22 @@ void run_respond(const RespondOptions& options, const std::string& command_line)
     fmt::print(stderr, "floe: going on after {} of {} events, found in {}.parts\n", parts.found(),
                reader.size(), options.to);
   respond_to_all(reader, response, options, kept, provenance, parts);
-  Json results = {{"output", options.to}, {"seed", options.settings.seed}, {"events", Json::array()}};
-  for (std::size_t i = 0; i < reader.size(); ++i) {
-    results["events"].push_back(*parts.row(i));
-    results["events"].back().erase("event_row");
-  }
+  const Json results = results_of(options, parts, reader.size());
   json.write(json_text(results));
   parts.finish(provenance, [&](const auto& part, EventFileWriter& writer) { copy_part(part, writer, kept); });
   json.commit();
   if (options.output.quiet) return;
   for (const Json& row : results["events"]) print_row(row);
+}
+
+void run_respond(const RespondOptions& options, const std::string& command_line) {
+  const ResponseSettings settings =
+      options.response ? read_response_file(*options.response) : ResponseSettings();
+  check_usage(options);
+  if (options.write_response)
+    write_whole_file(*options.write_response, response_file_text(settings));
+  else
+    respond_to_file(options, settings, command_line);
 }
 
 }  // namespace

@@ -170,9 +170,6 @@ std::string scan_table(const IceScan& scan) {
 }
 
 void check_usage(const ScanCommand& command, const AxisText& x, const AxisText& y) {
-  if (command.picture && !command.picture->ends_with(".svg"))
-    throw UsageError(
-        fmt::format("--picture: found \"{}\"; expected a name that ends in .svg", *command.picture));
   if (!command.depths) return;
   parse_depths(*command.depths);
   if (!x.is_family() && !y.is_family())
@@ -233,7 +230,7 @@ void add_scan(CLI::App& floe, const std::string& command_line) {
   app.add_option("-o,--json", command->output, "File for the landscape, its minimum and errors")
       ->type_name("FILE")
       ->required();
-  app.add_option("--picture", command->picture, "Map with contours of 68% and 95%")->type_name("FILE.svg");
+  add_picture(app, "--picture", "Map with contours of 68% and 95%", command->picture);
   app.add_option(
          "--depths", command->depths,
          "Where factors on absorption, scattering, birefringence apply [m]; ice beyond stays as it is. "

@@ -191,9 +191,6 @@ Json bias_json(const StudyBias& bias, const StudySettings& settings) {
 }
 
 void run_study(const StudyCommand& command) {
-  if (command.picture && !command.picture->ends_with(".svg"))
-    throw UsageError(
-        fmt::format("--picture: found \"{}\"; expected a name that ends in .svg", *command.picture));
   const std::optional<ResponseSettings> electronics = electronics_of(command);
   const StudySettings settings = settings_of(command, electronics);
   PlannedOutput json(command.output.json), picture(command.picture);
@@ -259,7 +256,7 @@ void add_study(CLI::App& floe) {
   add_run_options(app, command->run);
   app.add_option("--rows", command->rows, "Keeps every event; the same command goes on where it was stopped")
       ->type_name("FILE.jsonl");
-  app.add_option("-o,--picture", command->picture, "Pulls and errors of all events")->type_name("FILE.svg");
+  add_picture(app, "-o,--picture", "Pulls and errors of all events", command->picture);
   add_output_options(app, command->output);
   app.footer(
       "Examples:\n"

@@ -81,6 +81,8 @@ const WrongCase cases[] = {
     {"ThreeModelsToCompare", "compare event.hits --ice a --ice b --ice c", 2, "at most two"},
     {"TwoModelsAndWithout", "compare event.hits --ice a --ice b --without tilt", 2, "--without"},
     {"PictureOfAnotherKind", "compare event.hits --without tilt --picture out.png", 2, ".svg"},
+    {"SkyMapPictureOfAnotherKind", "reconstruct event.hits --skymap-picture out.png", 2,
+     "--skymap-picture: found \"out.png\""},
     {"UnknownEngine", "validate --reference . --engine fast", 2, "--engine: found \"fast\""},
     {"UnknownReferenceSet", "validate --reference . --only other", 2, "unknown reference set"},
     {"OutputFolderMissing", "simulate --cascade 20,-40,-300,70,130,1 -o no/such/out.h5", 5, "no/such"},
