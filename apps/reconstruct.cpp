@@ -103,7 +103,7 @@ EventResult result_of(const Json& row) {
 
 // All that results depend on.
 Json heading_of(const Model& model, const FitOptions& fit, const std::vector<Event>& events) {
-  return {{"journal", "floe reconstruct 2"},
+  return {{"journal", "floe reconstruct 3"},
           {"version", FLOE_VERSION},
           {"model", model_hash(model)},
           {"settings", to_json(fit)},

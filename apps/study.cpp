@@ -90,7 +90,7 @@ Json heading_of(const StudySettings& settings, const std::optional<ResponseSetti
   Json oversize = Json::object();
   for (const StudyGroup& group : settings.groups)
     oversize[fmt::format("{:g}", group.energy)] = group.oversize;
-  Json heading = {{"journal", "floe study 3"},
+  Json heading = {{"journal", "floe study 4"},
                   {"version", FLOE_VERSION},
                   {"seed", settings.seed},
                   {"effort", settings.fit.effort},

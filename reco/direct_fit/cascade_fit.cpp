@@ -9,6 +9,7 @@
 #include "reco/direct_fit/goodness_of_fit.h"
 #include "reco/direct_fit/information_bound.h"
 #include "reco/direct_fit/instrumented_volume.h"
+#include "reco/direct_fit/one_string.h"
 #include "reco/direct_fit/search.h"
 #include "reco/direct_fit/seed.h"
 #include "reco/direct_fit/track_test.h"
@@ -125,6 +126,8 @@ void find_result(ExpectationModel& light, const EventData& data, const FitOption
   fit.covariance = jacobian * end.covariance * jacobian.transpose();
   if (end.converged && end.weight_loss() > trusted_loss)
     fit.covariance = no_less_than(cramer_rao_bound(light, fit.cascade, data, options), fit.covariance);
+  if (const std::optional<Vec3> axis = axis_of_only_string(data))
+    fit.covariance = with_arc_about(*axis, fit.cascade, fit.covariance);
   if (fit.other_minimum) fit.covariance = with_other_minimum(fit.covariance, fit.cascade, *fit.other_minimum);
 
   judge(end, data, track, fit);

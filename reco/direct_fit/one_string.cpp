@@ -1,6 +1,7 @@
 #include "reco/direct_fit/one_string.h"
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <map>
 
 namespace floe {
@@ -30,6 +31,20 @@ LightCentre mirrored_about(const Vec3& axis, const LightCentre& light) {
   const Vec3 across = (light.position - axis).cross(Vec3::UnitZ()).normalized();  // 0 on the axis
   mirrored.direction -= 2 * across.dot(light.direction) * across;
   return mirrored;
+}
+
+Matrix7 with_arc_about(const Vec3& axis, const CascadeParameters& best, const Matrix7& covariance) {
+  Eigen::Vector2d outward = (best.position - axis).head<2>();
+  const double radius = outward.norm();
+  if (radius == 0 || !covariance.allFinite()) return covariance;
+  outward /= radius;
+  const Eigen::Vector2d along(-outward.y(), outward.x());
+  const double variance = along.dot(covariance.topLeftCorner<2, 2>() * along) / (radius * radius);
+  // <(1 - cos a)^2> of a Gaussian a
+  const double inside = 1 - 2 * std::exp(-variance / 2) + (1 + std::exp(-2 * variance)) / 2;
+  Matrix7 with_arc = covariance;
+  with_arc.topLeftCorner<2, 2>() += radius * radius * inside * outward * outward.transpose();
+  return with_arc;
 }
 
 }  // namespace floe

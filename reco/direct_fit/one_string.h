@@ -18,4 +18,10 @@ LightCentre turned_about(const Vec3& axis, double angle, const LightCentre& ligh
 // And mirrored in the vertical plane through that point and the light, which only changes its direction.
 LightCentre mirrored_about(const Vec3& axis, const LightCentre& light);
 
+// Mean square of (truth - best), in the numbers of a cascade, where all the light is of the string through a
+// point: the truth lies on an arc about it, inside the tangent that a covariance knows. With an azimuth of
+// Gaussian error about the string, the distance from the tangent is added; all else is linear in that
+// azimuth. A covariance that is not finite stays as it was.
+Matrix7 with_arc_about(const Vec3& axis, const CascadeParameters& best, const Matrix7& covariance);
+
 }  // namespace floe

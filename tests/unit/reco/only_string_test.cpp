@@ -1,6 +1,11 @@
 // Events that one string saw alone: their axis, copies at other azimuths, and modules that must not be wide.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
 #include "propagation/model.h"
 #include "reco/direct_fit/calibration_stages.h"
 #include "reco/direct_fit/one_string.h"
@@ -59,6 +64,41 @@ TEST_F(OnlyString, MirrorsLightInThePlaneThroughItself) {
   EXPECT_EQ(mirrored.time, light.time);
   EXPECT_EQ(mirrored.log_light, light.log_light);
   EXPECT_EQ(mirrored_about(light.position, light).direction, light.direction);  // no plane: nothing to mirror
+}
+
+// Places on an arc about the string, drawn with a Gaussian azimuth: their mean square about the middle one is
+// what the covariance of that place has to become.
+TEST_F(OnlyString, ErrorsFollowTheArcAboutIt) {
+  const Vec3 axis(10, 5, 0);
+  const double radius = 5, azimuth = 0.7;  // [m], [rad]
+  CascadeParameters best;
+  best.position = axis + radius * Vec3(std::cos(azimuth), std::sin(azimuth), 0);
+  const Eigen::Vector2d along(-std::sin(azimuth), std::cos(azimuth));
+  for (const double error : {0.1, 0.5, 1.0, 3.0}) {  // [rad]
+    Matrix7 linear = Vector7::Constant(0.04).asDiagonal();
+    linear.topLeftCorner<2, 2>() += std::pow(radius * error, 2) * along * along.transpose();
+    const Matrix7 covariance = with_arc_about(axis, best, linear);
+    const Eigen::Vector2d outward(std::cos(azimuth), std::sin(azimuth));
+    double inside = 0;
+    constexpr int draws = 100000;
+    std::mt19937_64 engine(3);
+    std::normal_distribution<double> normal(0, std::hypot(error, 0.2 / radius));
+    std::vector<double> squares;
+    for (int i = 0; i < draws; ++i) squares.push_back(std::pow(radius * (1 - std::cos(normal(engine))), 2));
+    for (const double square : squares) inside += square / draws;
+    double scatter = 0;
+    for (const double square : squares) scatter += std::pow(square - inside, 2) / draws;
+    const double added = outward.dot((covariance - linear).topLeftCorner<2, 2>() * outward);
+    EXPECT_NEAR(added, inside, 4 * std::sqrt(scatter / draws)) << error;
+    // Nothing else changes.
+    Matrix7 rest = covariance - linear;
+    rest.topLeftCorner<2, 2>() -= added * outward * outward.transpose();
+    EXPECT_LT(rest.cwiseAbs().maxCoeff(), 1e-9) << error;
+  }
+  const Matrix7 open = Matrix7::Constant(std::numeric_limits<double>::infinity());
+  EXPECT_EQ(with_arc_about(axis, best, open), open);
+  best.position = axis;
+  EXPECT_EQ(with_arc_about(axis, best, Matrix7::Identity()), Matrix7(Matrix7::Identity()));
 }
 
 // Modules of oversize 50 have a radius of 8.3 m: too wide for light 5 m away, not for light at 60 m.
