@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "data/base/error.h"
+#include "reco/direct_fit/alike_places.h"
 #include "reco/direct_fit/goodness_of_fit.h"
 #include "reco/direct_fit/information_bound.h"
 #include "reco/direct_fit/instrumented_volume.h"
@@ -126,8 +127,13 @@ void find_result(ExpectationModel& light, const EventData& data, const FitOption
   fit.covariance = jacobian * end.covariance * jacobian.transpose();
   if (end.converged && end.weight_loss() > trusted_loss)
     fit.covariance = no_less_than(cramer_rao_bound(light, fit.cascade, data, options), fit.covariance);
-  if (const std::optional<Vec3> axis = axis_of_only_string(data))
-    fit.covariance = with_arc_about(*axis, fit.cascade, fit.covariance);
+  if (const std::optional<Vec3> axis = axis_of_only_string(data); axis && end.converged) {
+    if (progress) progress(0.9, "looking around the string");
+    const double photons = search.photons_for(fit.cascade, options.oversize, {3, 1e6, 2e6});
+    const std::vector<AlikePlace> places = alike_places(light, data, *axis, options, photons, fit);
+    fit.covariance =
+        with_alike_places(with_arc_about(*axis, fit.cascade, fit.covariance), fit.cascade, *axis, places);
+  }
   if (fit.other_minimum) fit.covariance = with_other_minimum(fit.covariance, fit.cascade, *fit.other_minimum);
 
   judge(end, data, track, fit);

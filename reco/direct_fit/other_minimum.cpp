@@ -14,13 +14,17 @@ constexpr double lost_by_unsolved = 3.5;
 
 }  // namespace
 
+bool competes(const OtherMinimum& other) {
+  return other.delta_neg_llh < competing_neg_llh + competing_errors * other.delta_neg_llh_error;
+}
+
 std::optional<OtherMinimum> competing_minimum(std::span<const OtherEnd> ends) {
   std::optional<OtherMinimum> nearest;
   for (const OtherEnd& end : ends) {
     const double lost = end.unsolved ? lost_by_unsolved : 0;
     const double value = std::max(0.0, end.worse - lost), error = std::hypot(end.error, std::sqrt(lost));
-    if (value < competing_neg_llh + competing_errors * error && (!nearest || value < nearest->delta_neg_llh))
-      nearest = OtherMinimum{end.cascade, value, error};
+    const OtherMinimum other{end.cascade, value, error};
+    if (competes(other) && (!nearest || value < nearest->delta_neg_llh)) nearest = other;
   }
   return nearest;
 }

@@ -18,6 +18,9 @@ struct OtherMinimum {
 // In -ln L: ends that are not so much worse than the best compete with it.
 inline constexpr double competing_neg_llh = 3;
 
+// Whether it is hardly worse than the best, as far as that is known.
+bool competes(const OtherMinimum& other);
+
 // Where a search ended, beside the best.
 struct OtherEnd {
   CascadeParameters cascade;

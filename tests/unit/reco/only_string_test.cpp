@@ -2,11 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <random>
 #include <vector>
 
 #include "propagation/model.h"
+#include "reco/direct_fit/alike_places.h"
 #include "reco/direct_fit/calibration_stages.h"
 #include "reco/direct_fit/one_string.h"
 
@@ -99,6 +101,52 @@ TEST_F(OnlyString, ErrorsFollowTheArcAboutIt) {
   EXPECT_EQ(with_arc_about(axis, best, open), open);
   best.position = axis;
   EXPECT_EQ(with_arc_about(axis, best, Matrix7::Identity()), Matrix7(Matrix7::Identity()));
+}
+
+// The best place turned by sixths of a circle about the string, as likely as `worse` says of an angle.
+class AlikePlaces : public testing::Test {
+ protected:
+  static constexpr double radius = 10;  // [m]
+  const Vec3 axis_{30, -20, 0};
+
+  CascadeParameters turned(double angle) const {
+    return {axis_ + radius * Vec3(std::cos(angle), std::sin(angle), -30), 500, 1.2, 1 + angle, 1e4};
+  }
+  // Errors of `error` [rad] about the string, and little ones in all else.
+  Matrix7 covariance(double error) const {
+    Vector7 turn = Vector7::Zero();
+    turn(1) = radius * error, turn(5) = error;
+    Vector7 errors;
+    errors << 0.3, 0.3, 0.3, 1, 0.03, 0.03, 300;
+    return Matrix7(errors.cwiseAbs2().asDiagonal()) + turn * turn.transpose();
+  }
+  Matrix7 added(double error, const std::function<Difference(double angle)>& worse) const {
+    std::vector<AlikePlace> places;
+    for (int i = 1; i < 6; ++i)
+      places.push_back({turned(i * pi / 3), worse(std::remainder(i * pi / 3, 2 * pi))});
+    return with_alike_places(covariance(error), turned(0), axis_, places) - covariance(error);
+  }
+};
+
+TEST_F(AlikePlaces, OfAGaussianAreInItsErrors) {
+  const double error = 0.3;
+  const Matrix7 change = added(error, [&](double angle) {
+    return Difference{angle * angle / (2 * error * error), 0.0};
+  });
+  EXPECT_LT(change.cwiseAbs().maxCoeff(), 0.1 * covariance(error)(1, 1));
+}
+
+TEST_F(AlikePlaces, FarWorseAddNothing) {
+  EXPECT_EQ(added(0.1, [](double) { return Difference{30, 5}; }), Matrix7(Matrix7::Zero()));
+}
+
+// A flat likelihood: the mean square way between two places on a circle is 2 r^2, that of azimuths pi^2 / 3.
+// Sixths of a circle and the Gaussian about the best know it roughly.
+TEST_F(AlikePlaces, FillTheCircleWhereItIsFlat) {
+  const Matrix7 change = added(0.2, [](double) { return Difference{0, 0}; });
+  EXPECT_NEAR(change(0, 0) + change(1, 1), 2 * radius * radius, 0.2 * 2 * radius * radius);
+  EXPECT_GT(change(5, 5), 1);
+  EXPECT_EQ(change(2, 2), 0);
 }
 
 // Modules of oversize 50 have a radius of 8.3 m: too wide for light 5 m away, not for light at 60 m.
