@@ -55,8 +55,8 @@ Matrix7 with_alike_places(const Matrix7& covariance, const CascadeParameters& be
   if (radius == 0 || !covariance.allFinite()) return covariance;
   const Eigen::Vector2d along(-outward.y() / radius, outward.x() / radius);
   const double error = std::sqrt(along.dot(covariance.topLeftCorner<2, 2>() * along)) / radius;  // [rad]
-  // Light of a sixth of a circle against that of the Gaussian.
-  const double size = 2 * pi / turns / (std::sqrt(2 * pi) * error);
+  // Each has the errors of the best, unless these are wider than a sixth of a circle.
+  const double size = std::min(1.0, 2 * pi / turns / (std::sqrt(2 * pi) * error));
   const auto gaussian = covariance.ldlt();
   Matrix7 squares = Matrix7::Zero();
   double all = 1;

@@ -21,9 +21,10 @@ struct AlikePlace {
 std::vector<AlikePlace> alike_places(ExpectationModel& light, const EventData& data, const Vec3& axis,
                                      const FitOptions& options, double photons, CascadeFit& fit);
 
-// Mean square of (truth - best) when the truth may be at these places, too, each for its sixth of a circle:
-// with the odds of its likelihood (share_of) less those that the Gaussian of the best gives it. A place that
-// does not compete with the best has none. A covariance that is not finite stays as it was.
+// Mean square of (truth - best) when the truth may be at these places, too, each with the errors of the best
+// and no more than its sixth of a circle: with the odds of its likelihood (share_of) less those that the
+// Gaussian of the best gives it. A place that does not compete with the best has none. A covariance that is
+// not finite stays as it was.
 Matrix7 with_alike_places(const Matrix7& covariance, const CascadeParameters& best, const Vec3& axis,
                           const std::vector<AlikePlace>& places);
 
