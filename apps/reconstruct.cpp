@@ -103,13 +103,10 @@ EventResult result_of(const Json& row) {
 
 // All that results depend on.
 Json heading_of(const Model& model, const FitOptions& fit, const std::vector<Event>& events) {
-  return {{"journal", "floe reconstruct 3"},
-          {"version", FLOE_VERSION},
-          {"model", model_hash(model)},
-          {"settings", to_json(fit)},
-          {"sky_map_pixels", fit.sky_map_pixels},
-          {"profile", fit.profile},
-          {"events", hash_of(events)}};
+  return {{"journal", "floe reconstruct"}, {"fit", cascade_fit_revision},
+          {"version", FLOE_VERSION},       {"model", model_hash(model)},
+          {"settings", to_json(fit)},      {"sky_map_pixels", fit.sky_map_pixels},
+          {"profile", fit.profile},        {"events", hash_of(events)}};
 }
 
 // Fits the events over all cores and says what it found, in their order.

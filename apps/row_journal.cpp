@@ -5,9 +5,6 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <fstream>
-#include <sstream>
-
 #include "data/base/error.h"
 
 namespace floe {
@@ -36,11 +33,18 @@ void append_whole(int file, const std::string& text, const std::filesystem::path
                     (cut ? "" : " Its last line is not whole"));
 }
 
-std::string content_of(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream content;
-  content << stream.rdbuf();
-  return content.str();
+// Of the file that is locked: rows that could not be read must not be cut off as if they were none.
+std::string content_of(int file, const std::filesystem::path& path) {
+  const off_t size = ::lseek(file, 0, SEEK_END);
+  std::string content(size > 0 ? static_cast<std::size_t>(size) : 0, '\0');
+  std::size_t done = 0;
+  while (size >= 0 && done < content.size()) {
+    const ssize_t n = ::pread(file, content.data() + done, content.size() - done, static_cast<off_t>(done));
+    if (n <= 0) break;
+    done += static_cast<std::size_t>(n);
+  }
+  if (size < 0 || done < content.size()) throw InputError(path.string() + ": could not be read");
+  return content;
 }
 
 // Whether a run may have been killed while it wrote this as its first line.
@@ -69,7 +73,7 @@ RowJournal::RowJournal(std::filesystem::path path, const Json& asked, Mismatch m
     if (::flock(file_, LOCK_EX | LOCK_NB) != 0)
       throw OutputError(path_.string() + ": another run is writing here; wait for it, or name another file");
     const Json heading = Json::parse(line_of(asked));  // as it would be read: no infinities
-    const std::string content = content_of(path_);
+    const std::string content = content_of(file_, path_);
     std::size_t end = 0;
     long line = 0;
     const auto refuse = [&](long at) {

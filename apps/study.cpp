@@ -85,12 +85,13 @@ StudySettings settings_of(const StudyCommand& command, const std::optional<Respo
   return settings;
 }
 
-// All that rows depend on. The journal's number goes up when fits change: rows of two fits are no study.
+// All that rows depend on: rows of two fits are no study.
 Json heading_of(const StudySettings& settings, const std::optional<ResponseSettings>& electronics) {
   Json oversize = Json::object();
   for (const StudyGroup& group : settings.groups)
     oversize[fmt::format("{:g}", group.energy)] = group.oversize;
-  Json heading = {{"journal", "floe study 4"},
+  Json heading = {{"journal", "floe study"},
+                  {"fit", cascade_fit_revision},
                   {"version", FLOE_VERSION},
                   {"seed", settings.seed},
                   {"effort", settings.fit.effort},
@@ -152,13 +153,13 @@ Json table_json(const StudyTable& table) {
                      {"median_error", line.median_error},
                      {"median_bound", line.median_bound},
                      {"median_scatter", line.median_scatter},
-                     {"pull_mean", line.pull_mean},
-                     {"pull_width", line.pull_width},
-                     {"pull_width_error", line.pull_width_error},
-                     {"pull_core", line.pull_core},
-                     {"pull_core_error", line.pull_core_error},
-                     {"coverage", line.coverage},
-                     {"coverage_error", line.coverage_error}});
+                     {"pull_mean", line.pull.mean},
+                     {"pull_width", line.pull.width},
+                     {"pull_width_error", line.pull.width_error},
+                     {"pull_core", line.pull.core},
+                     {"pull_core_error", line.pull.core_error},
+                     {"coverage", line.pull.coverage},
+                     {"coverage_error", line.pull.coverage_error}});
   return {{"title", table.title},         {"events", table.events}, {"fitted", table.fitted},
           {"contested", table.contested}, {"lines", lines},         {"failures", table.failures}};
 }

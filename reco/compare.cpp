@@ -12,7 +12,7 @@ namespace floe {
 namespace {
 
 constexpr int repeats = 4;                                      // independent simulations of each fit
-constexpr std::uint64_t first_stream = std::uint64_t{1} << 41;  // beyond those of the fits
+constexpr std::uint64_t first_stream = std::uint64_t{1} << 43;  // beyond those of the fits
 
 Progress part(const Progress& progress, double from, double to, const std::string& label) {
   if (!progress) return {};

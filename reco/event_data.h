@@ -63,8 +63,6 @@ class EventData {
   // Variance of charges in units of that of as many photoelectrons: 1 for photons; for pulses told by modules
   // with a single one, as n charges q have the variance n <q^2>.
   double charge_dispersion() const { return charge_dispersion_; }
-  double first_time() const { return first_; }
-  double last_time() const { return last_; }
   // Where the outermost bins end, for all that needs a finite width [ns].
   double begin() const { return first_ - margin; }
   double end() const { return last_ + margin; }

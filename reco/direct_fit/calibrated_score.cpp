@@ -61,9 +61,11 @@ class CalibratedScore {
     WeightVariance sum;
     for (std::size_t i = 0; i < values.size(); ++i) {
       const Vector7 &a = folds_[0].weights()[i], &b = folds_[1].weights()[i];
-      const double mean = data_.repeats() * std::exp(values[i].log_mean);
-      sum.all += 0.25 * mean * (a + b) * (a + b).transpose();
-      sum.without_noise += 0.5 * mean * (a * b.transpose() + b * a.transpose());
+      const Emulator::Bin& bin = emulator_.bins()[i];
+      const double variance = bin.saturated ? emulator_.likelihood(bin, values[i].log_mean).curvature
+                                            : data_.repeats() * std::exp(values[i].log_mean);
+      sum.all += 0.25 * variance * (a + b) * (a + b).transpose();
+      sum.without_noise += 0.5 * variance * (a * b.transpose() + b * a.transpose());
     }
     return sum;
   }
@@ -171,10 +173,12 @@ ScoreSolution solve_calibrated_score(const EventData& data, std::span<const Scor
 }
 
 ScoreLikelihood score_likelihood(const EventData& data, std::span<const ScoreFold, 2> folds,
-                                 const ScoreSolution& solution, double position_error) {
+                                 const ScoreSolution& solution, double position_error,
+                                 double excess_scatter) {
   const auto score = std::make_shared<CalibratedScore>(data, folds, position_error);
   score->set_time(solution.step);
-  const Matrix7 variance = score->data_variance(solution.step) + score->simulation_variance(solution.step);
+  const Matrix7 variance =
+      (1 + excess_scatter) * score->data_variance(solution.step) + score->simulation_variance(solution.step);
   const Matrix7 whitening = variance.llt().matrixL().solve(Matrix7::Identity());
   const Vector7 left = score->score(solution.step).gap;  // by the last Newton step
   const auto at = [score, whitening, left](const Vector7& p) {
@@ -182,7 +186,8 @@ ScoreLikelihood score_likelihood(const EventData& data, std::span<const ScoreFol
     return ScoreLikelihood::Point{whitening * (left - there.gap), whitening * there.slope};
   };
   const Emulator& emulator = folds[0].emulator;
-  return {at, emulator.frame(), solution.step, solution.covariance, trust_region(emulator.settings())};
+  return {at, emulator.frame(), solution.step,
+          solution.covariance + excess_scatter * solution.data_covariance, trust_region(emulator.settings())};
 }
 
 InformationBound cramer_rao_bound(const EventData& data, std::span<const ScoreFold, 2> folds) {

@@ -40,14 +40,15 @@ struct ScoreSolution {
 ScoreSolution solve_calibrated_score(const EventData& data, std::span<const ScoreFold, 2> folds,
                                      double position_error);
 
-// What the sums say around a solution that converged; `data` and `folds` must outlive it.
+// What the sums say around a solution that converged; `data` and `folds` must outlive it. `excess_scatter` >=
+// 0: how much more than Poisson's the data's variance is.
 ScoreLikelihood score_likelihood(const EventData& data, std::span<const ScoreFold, 2> folds,
-                                 const ScoreSolution& solution, double position_error);
+                                 const ScoreSolution& solution, double position_error, double excess_scatter);
 
 struct InformationBound {
   Matrix7 covariance = Matrix7::Constant(std::numeric_limits<double>::infinity());  // of the local numbers
   // Variance with these weights over that with perfect ones, in the combination of parameters where it is
-  // the largest. Infinite where the weights are mostly noise.
+  // the largest. Infinite where the weights are mostly noise; the covariance is then that of these weights.
   double weight_loss = std::numeric_limits<double>::infinity();
 };
 

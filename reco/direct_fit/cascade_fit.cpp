@@ -125,8 +125,11 @@ void find_result(ExpectationModel& light, const EventData& data, const FitOption
   fit.cascade = cascade_of(end.light, options.kind);
   const Matrix7 jacobian = LocalFrame(end.light).jacobian(Vector7::Zero(), options.kind);
   fit.covariance = jacobian * end.covariance * jacobian.transpose();
-  if (end.converged && end.weight_loss() > trusted_loss)
-    fit.covariance = no_less_than(cramer_rao_bound(light, fit.cascade, data, options), fit.covariance);
+  const Matrix7 of_likelihood = fit.covariance;
+  if (end.converged && end.weight_loss() > trusted_loss) {
+    const Matrix7 bound = cramer_rao_bound(light, fit.cascade, data, options, &fit);
+    fit.covariance = no_less_than(data.charge_dispersion() * bound, fit.covariance);
+  }
   if (const std::optional<Vec3> axis = axis_of_only_string(data); axis && end.converged) {
     if (progress) progress(0.9, "looking around the string");
     const double photons = search.photons_for(fit.cascade, options.oversize, {3, 1e6, 2e6});
@@ -135,6 +138,8 @@ void find_result(ExpectationModel& light, const EventData& data, const FitOption
         with_alike_places(with_arc_about(*axis, fit.cascade, fit.covariance), fit.cascade, *axis, places);
   }
   if (fit.other_minimum) fit.covariance = with_other_minimum(fit.covariance, fit.cascade, *fit.other_minimum);
+
+  fit.errors_beyond_likelihood = fit.covariance != of_likelihood;
 
   judge(end, data, track, fit);
   look_around(end, options, fit);
@@ -221,6 +226,9 @@ std::string describe(const CascadeFit& fit) {
   if (fit.other_minimum) text += describe(*fit.other_minimum);
   if (fit.profile) text += describe(*fit.profile);
   if (fit.sky_map) text += describe(*fit.sky_map);
+  if (fit.errors_beyond_likelihood && (fit.profile || fit.sky_map))
+    text +=
+        "  Profile and map know this minimum alone; the errors above also know where else the truth may be\n";
   char line[200];
   std::snprintf(line, sizeof line,
                 "  -ln L %.1f +- %.1f (pseudo-data: %.1f), p = %.3g; %zu simulations, %.3g photons, %.0f s\n",

@@ -22,6 +22,10 @@ namespace floe {
 class EventData;         // reco/event_data.h
 class ExpectationModel;  // reco/direct_fit/expectation_model.h
 
+// Goes up when results of the same event and options change, errors included: files that go on with earlier
+// results compare it.
+constexpr int cascade_fit_revision = 4;
+
 struct FitOptions {
   // The hypothesis: electron (the energy is then EM-equivalent) or hadron.
   CascadeKind kind = CascadeKind::electron;
@@ -82,8 +86,11 @@ struct CascadeFit {
 
   CascadeParameters cascade;
   // x, y, z [m], time [ns], zenith, azimuth [rad], energy [GeV]: statistical error of data and
-  // simulation together with the model error; where another minimum competes, with the way there.
+  // simulation together with the model error; no less than the Cramer-Rao bound where the likelihood's own
+  // curvature is mostly noise; where another minimum competes, or places about the only string with light
+  // are as likely, with the way there.
   Matrix7 covariance = Matrix7::Constant(std::numeric_limits<double>::quiet_NaN());
+  bool errors_beyond_likelihood = false;  // any of these: sky map and profile know nothing of it
 
   // When they were asked for, and the fit ended with the calibrated score.
   std::optional<SkyMap> sky_map;

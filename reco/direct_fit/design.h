@@ -42,7 +42,7 @@ double useful_photons(ExpectationModel& light, const CascadeParameters& cascade,
                       double oversize, double effort, const PhotonNeed& need);
 
 // The oversize of simulations that teach weights and slopes, which need many counts more than they need
-// modules of the right size: 2.5 times that of the fit, between 12 and 30, never less than the fit's.
+// modules of the right size: 5 times that of the fit, between 12 and 60, never less than the fit's.
 double training_oversize(double oversize);
 
 // Directions spread evenly over the sphere (Fibonacci spiral).

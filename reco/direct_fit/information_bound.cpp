@@ -21,10 +21,11 @@ constexpr double acceptable_loss = 1.25;  // what is left is taken out
 class BoundSimulations {
  public:
   BoundSimulations(ExpectationModel& light, const CascadeParameters& truth, const EventData& data,
-                   const FitOptions& options)
+                   const FitOptions& options, CascadeFit* count_into)
       : light_(light),
         truth_(truth),
         options_(options),
+        count_into_(count_into),
         measured_(data),
         frame_(light_centre(truth, options.kind)),
         ice_(*light.model().ice) {}
@@ -68,12 +69,14 @@ class BoundSimulations {
          design_requests(frame_, stage, options_.kind, options_.seed, draws_, 100 * draws_)) {
       samples_.push_back(std::make_unique<LightSample>(light_.sample(request)));
       samples.push_back(samples_.back().get());
+      if (count_into_) count_into_->count_simulation(samples_.back()->propagated);
     }
   }
 
   ExpectationModel& light_;
   const CascadeParameters& truth_;
   const FitOptions& options_;
+  CascadeFit* count_into_;
   const EventData& measured_;
   LocalFrame frame_;
   MeanIce ice_;
@@ -85,8 +88,8 @@ class BoundSimulations {
 }  // namespace
 
 Matrix7 cramer_rao_bound(ExpectationModel& light, const CascadeParameters& truth, const EventData& data,
-                         const FitOptions& options) {
-  BoundSimulations bound(light, truth, data, options);
+                         const FitOptions& options, CascadeFit* count_into) {
+  BoundSimulations bound(light, truth, data, options, count_into);
   InformationBound found = bound.improve(first_errors, first_training);
   for (int pass = 1; pass < most_passes && (pass == 1 || found.weight_loss > acceptable_loss); ++pass) {
     const InformationBound now =

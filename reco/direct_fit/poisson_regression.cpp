@@ -55,13 +55,11 @@ Regression fit_poisson(std::span<const RegressionPoint> points, std::span<const 
   for (int iteration = 0; iteration < 60; ++iteration) {
     Coefficients gradient = weight.cwiseProduct(fit.coefficients - prior.mean);
     CoefficientMatrix hessian = weight.asDiagonal();
-    fit.expected_total = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Coefficients x = terms_of(points[i]);
       const double mean = std::exp(std::min(points[i].offset + fit.coefficients.dot(x), 100.0));
       gradient += (mean - counts[i]) * x;
       hessian += mean * x * x.transpose();
-      fit.expected_total += mean;
     }
     const Eigen::LLT<CoefficientMatrix> factor(hessian);
     fit.covariance = factor.solve(CoefficientMatrix::Identity());

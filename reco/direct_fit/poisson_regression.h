@@ -31,7 +31,6 @@ struct Regression {
   // Relative variance of the counts about the model, as far as it is significantly (two sigma) beyond
   // Poisson's, >= 0: what a log-linear dependence cannot follow.
   double excess_variance = 0;
-  double expected_total = 0;  // of all points
 };
 
 // Maximum of the posterior (log-concave: Newton with halved steps). points and counts of equal length.

@@ -87,7 +87,7 @@ void ScoreWeights::weaken_module(std::size_t begin, std::size_t end,
                                  std::span<const LightSample* const> judges,
                                  std::span<const std::vector<double>> gaps) {
   const Emulator::Bin& first = emulator_.bins()[begin];
-  if (first.saturated || first.left_out) return;
+  if (first.saturated) return;
   Vector7 found = Vector7::Zero(), poisson = Vector7::Constant(1e-300);
   double light = 0;
   for (std::size_t i = begin; i < end; ++i) {

@@ -24,7 +24,6 @@ class ScoreWeights {
                std::span<const LightSample* const> judges, double position_error);
 
   const Vector7& operator[](std::size_t bin) const { return weights_[bin]; }
-  std::size_t size() const { return weights_.size(); }
   // Of a bin's count about its expectation, with finite simulation and model error, in units of Poisson's.
   double relative_variance(std::size_t bin) const { return relative_variance_[bin]; }
   // Variance of the data's sums from what modules were let float by.

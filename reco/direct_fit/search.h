@@ -31,6 +31,7 @@ class Search {
   struct Calibration {
     EventData data;
     double position_error;
+    double excess_scatter;  // of the data's counts beyond Poisson's, in variance: charges, widened modules
     std::vector<ScoreFold> folds;  // two; they refer to `data` and to the search's simulations
     ScoreSolution solution;
   };

@@ -83,7 +83,7 @@ void Search::end_without_solution(End& end, const CalibrationNeed& need,
   wide.photons = photons_for(cascade_of(end.light, options_.kind), wide.oversize, {300, 2e6, 2e7});
   const RoundEnd last = settle(end.light, wide, most_rounds_without_score, true);
   end.light = last.light;
-  end.covariance = covariance_of(last.fit.information);
+  end.covariance = data_.charge_dispersion() * covariance_of(last.fit.information);
   end.converged = has_settled(last, wide);
   if (!end.converged) end.trouble = "the data do not determine all seven numbers";
 }
@@ -127,7 +127,7 @@ void Search::calibrate(End& end, CalibrationNeed& need) {
   all.insert(all.end(), fresh[1].begin(), fresh[1].end());
   end.edges = arrival_edges(data_, frame, all, options_.kind, surely_seen);
   const auto calibration = std::make_shared<Calibration>(Calibration{
-      data_.with_edges(arrival_edges(data_, frame, all, options_.kind)), need.errors.position, {}, {}});
+      data_.with_edges(arrival_edges(data_, frame, all, options_.kind)), need.errors.position, 0, {}, {}});
   end.calibration = calibration;
   auto& folds = calibration->folds;
   for (int fold = 0; fold < 2; ++fold)
@@ -147,7 +147,7 @@ void Search::calibrate(End& end, CalibrationNeed& need) {
   const bool stays = !inside && !enough_light;  // weights that lose so much do not say where to
   if (!stays) end.light = frame.at(solution.step);
   end.covariance = solution.covariance;
-  const double scatter =
+  const double scatter = calibration->excess_scatter =
       data_.charge_dispersion() - 1 + options_.data_widened * std::max(0.0, solution.dispersion - 1);
   if (scatter > 0) end.covariance += scatter * solution.data_covariance;
   const Vector7 found = solution.covariance.diagonal().cwiseSqrt();
@@ -178,7 +178,7 @@ double Search::End::weight_loss() const {
 std::optional<ScoreLikelihood> Search::End::likelihood() const {
   if (!calibration || !calibration->solution.converged) return std::nullopt;
   return score_likelihood(calibration->data, std::span<const ScoreFold, 2>(calibration->folds),
-                          calibration->solution, calibration->position_error);
+                          calibration->solution, calibration->position_error, calibration->excess_scatter);
 }
 
 }  // namespace floe

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 #include "reco/study/summary.h"
@@ -14,15 +13,8 @@
 namespace floe {
 namespace {
 
-struct Mean {
-  double value, error;
-};
-Mean mean_of(const std::vector<double>& values) {
-  const double n = double(values.size());
-  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
-  double square = 0;
-  for (const double value : values) square += (value - mean) * (value - mean);
-  return {mean, n > 1 ? std::sqrt(square / (n * (n - 1))) : ModelBias::unknown};
+double error_of_mean(const std::vector<double>& values) {
+  return standard_deviation(values) / std::sqrt(double(values.size()));
 }
 
 // `difference` of as many parameters as it has, from `first` on.
@@ -46,8 +38,7 @@ ModelBias bias_of(const std::vector<const StudyRow*>& rows, const StudyFit& (*fi
     add(bias.all, residuals, 0, 7);
   }
   bias.median_angle = median(angles);
-  const Mean energy = mean_of(energies);
-  bias.mean_log_energy = energy.value, bias.mean_log_energy_error = energy.error;
+  bias.mean_log_energy = mean_of(energies), bias.mean_log_energy_error = error_of_mean(energies);
   return bias;
 }
 
@@ -79,8 +70,7 @@ StudyBias summarise_bias(std::span<const StudyRow> all_rows) {
     variance += row->delta_neg_llh_error * row->delta_neg_llh_error;
   }
   bias.sum_delta_error = std::sqrt(variance);
-  const Mean delta = mean_of(deltas);
-  bias.mean_delta = delta.value, bias.mean_delta_error = delta.error;
+  bias.mean_delta = mean_of(deltas), bias.mean_delta_error = error_of_mean(deltas);
   bias.least_significance = *std::min_element(significances.begin(), significances.end());
   bias.median_significance = median(significances);
   return bias;

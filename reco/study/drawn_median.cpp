@@ -15,7 +15,12 @@ DrawnMedian median_of_gaussian_lengths(std::span<const Eigen::MatrixXd> covarian
   if (covariances.empty())
     return {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
   std::vector<Eigen::MatrixXd> roots;
-  for (const Eigen::MatrixXd& covariance : covariances) roots.emplace_back(covariance.llt().matrixL());
+  for (const Eigen::MatrixXd& covariance : covariances) {
+    const Eigen::LLT<Eigen::MatrixXd> root(covariance);
+    if (root.info() != Eigen::Success)
+      return {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
+    roots.emplace_back(root.matrixL());
+  }
   std::mt19937_64 engine(1);
   std::normal_distribution<double> normal;
   double sum = 0, squares = 0;

@@ -25,9 +25,11 @@ struct Points {
 Points collect(std::span<const StudyRow> rows) {
   Points points;
   for (const StudyRow& row : rows) {
-    if (!row.fit.covariance.allFinite() || !row.bound.allFinite()) continue;
+    if (!is_fitted(row.fit)) continue;
     const StudyResiduals r = residuals_of(row, row.fit);
-    for (int i = 0; i < 7; ++i) points.pulls.push_back(r.difference(i) / std::sqrt(r.covariance(i, i)));
+    const Vector7 pulls = r.pulls();
+    points.pulls.insert(points.pulls.end(), pulls.begin(), pulls.end());
+    if (!row.bound.allFinite()) continue;
     points.position.emplace_back(std::sqrt(r.bound.topLeftCorner<3, 3>().trace()),
                                  r.difference.head<3>().norm());
     points.direction.emplace_back(std::sqrt(r.bound.block<2, 2>(4, 4).trace()) / degree,

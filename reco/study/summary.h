@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "reco/study/pulls.h"
 #include "reco/study/study.h"
 
 namespace floe {
@@ -16,10 +17,11 @@ struct StudyResiduals {
   Vector7 difference;  // fit - truth
   Matrix7 covariance;  // the fit's
   Matrix7 bound;       // Cramer-Rao
+  Vector7 pulls() const { return difference.cwiseQuotient(covariance.diagonal().cwiseSqrt()); }
 };
 StudyResiduals residuals_of(const StudyRow& row, const StudyFit& fit);
 
-// Whether a study has numbers to judge: the fit ended, with errors.
+// Whether a study has numbers to judge: the fit ended, with errors. Table, picture and bias judge the same.
 bool is_fitted(const StudyFit& fit);
 
 // Of an even number of values, the middle between the two; not a number of none.
@@ -36,11 +38,8 @@ struct StudyLine {
   // What Gaussian errors at each event's Cramer-Rao bound would give for it, and how far the median of so
   // many events would scatter about that.
   double median_bound = unknown, median_scatter = unknown;
-  // Pulls: (fit - truth) / error. The width is their standard deviation, the core half of the interval that
-  // holds the central 68.27%; both are 1 for Gaussian errors, and a few events far off widen only the first.
-  double pull_mean = unknown, pull_width = unknown, pull_width_error = unknown;
-  double pull_core = unknown, pull_core_error = unknown;
-  double coverage = unknown, coverage_error = unknown;  // of the region for 68.27%; binomial error
+  // Of a length (position, direction) only the coverage: of the joint region for 68.27%.
+  PullSummary pull;
 };
 
 struct StudyTable {

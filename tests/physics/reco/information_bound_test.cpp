@@ -102,6 +102,33 @@ TEST(InformationBound, IsThatOfLightInClosedForm) {
   EXPECT_NEAR(std::exp(sum), 1.05, 0.08);
 }
 
+// A module far above its cap says only that it is bright: hardly more than a module that is left out.
+TEST(InformationBound, SaturatedModulesCountAsLittleAsTheySay) {
+  constexpr double cap = 30;
+  const CascadeParameters truth{{60, 90, -220}, 900, 0.6, 0.5, 20000};
+  ToyLight light(13);
+  const Event event = light.draw(truth, 77777);
+  FitOptions options;
+  options.threads = 2;
+  options.seed = 13;
+  const auto errors = [&](const DataSelection& selection) -> Vector7 {
+    const EventData data(*light.model().detector, event, selection);
+    return cramer_rao_bound(light, truth, data, options).diagonal().cwiseSqrt();
+  };
+  const EventData all(*light.model().detector, event);
+  DataSelection capped, without;
+  capped.charge_cap = cap;
+  for (const ModuleData& lit : all.lit())
+    if (lit.charge >= cap) without.bad.push_back(all.detector().modules()[lit.module].id);
+  ASSERT_GT(without.bad.size(), 5u);
+  const Vector7 saturated = errors(capped), left_out = errors(without), whole = errors({});
+  for (int k = 0; k < 7; ++k) {
+    // Each bound is known to a tenth; which modules are above the cap tells something of the energy, too.
+    EXPECT_LT(saturated(k), 1.15 * left_out(k)) << k;
+    EXPECT_GT(saturated(k), 0.9 * whole(k)) << k;
+  }
+}
+
 // Errors of a fit that its own noise made small come up to the bound; others stay as they are.
 TEST(NoLessThan, RaisesWhatIsBelowTheBoundInAnyDirection) {
   Matrix7 mix = Matrix7::Identity();

@@ -19,10 +19,10 @@ TEST(StudySummary, GaussianErrorsHavePullsOfWidthOneAndCover) {
   const StudyTable table = summarise(gaussian_rows(1000), "test");
   EXPECT_EQ(table.fitted, 1000u);
   for (const StudyLine& line : table.lines) {
-    EXPECT_NEAR(line.coverage, 0.6827, 4 * line.coverage_error) << line.name;
-    if (!(line.pull_width > 0)) continue;
-    EXPECT_NEAR(line.pull_width, 1, 4 * line.pull_width_error) << line.name;
-    EXPECT_NEAR(line.pull_core, 1, 4 * line.pull_core_error) << line.name;
+    EXPECT_NEAR(line.pull.coverage, 0.6827, 4 * line.pull.coverage_error) << line.name;
+    if (!(line.pull.width > 0)) continue;
+    EXPECT_NEAR(line.pull.width, 1, 4 * line.pull.width_error) << line.name;
+    EXPECT_NEAR(line.pull.core, 1, 4 * line.pull.core_error) << line.name;
   }
   // Medians of 1000 are known to 1.6 / sqrt(1000) of themselves, at worst.
   for (const char* name : {"position", "direction", "energy"})
@@ -53,8 +53,8 @@ TEST(StudySummary, OneEventFarOffWidensOnlyTheStandardDeviation) {
   const StudyLine before = line_of(summarise(rows, ""), "x");
   rows[3].fit.cascade.position.x() = rows[3].truth.position.x() + 40;
   const StudyLine after = line_of(summarise(rows, ""), "x");
-  EXPECT_GT(after.pull_width, 2);
-  EXPECT_NEAR(after.pull_core, before.pull_core, 0.05);
+  EXPECT_GT(after.pull.width, 2);
+  EXPECT_NEAR(after.pull.core, before.pull.core, 0.05);
 }
 
 TEST(StudySummary, SaysHowManyHaveACompetingMinimum) {
