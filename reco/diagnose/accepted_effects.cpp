@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "reco/diagnose/contest.h"
+#include "reco/diagnose/score_test.h"
+#include "reco/validation/two_sample_tests.h"
 
 namespace floe {
 
@@ -135,7 +137,9 @@ void AcceptedEffects::take(const IceFit& fit) {
     if (is_layered(effect) && effect.parameters.front().logarithmic)
       take_mean(fit, first, effect);
     else
-      effect.significance = std::sqrt(chi_square_of(effect.parameters, fit, first, base_));
+      effect.significance =
+          sigmas_of(ln_chi_square_probability(chi_square_of(effect.parameters, fit, first, base_),
+                                              static_cast<double>(effect.parameters.size())));
     for (std::size_t i = 0; i < effect.parameters.size(); ++i)
       if (is_place_of_band(effect.parameters[i])) {
         const std::string& name = effect.parameters[i].name;

@@ -74,15 +74,16 @@ void hold_contest(const Model& base, double noise, const FitBeside& fit, std::ve
         best = i;
       }
       candidates[loser].trial.lost = stays ? Duel{leader, challenger} : Duel{challenger, leader};
-    } catch (const Error&) {
-      // No physical ice on its way: the order of -ln L stays.
+    } catch (const InputError&) {
+      candidates[i].trial.untold = true;  // no physical ice on its way: the order of -ln L stays
     }
   std::rotate(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(best),
               candidates.begin() + static_cast<std::ptrdiff_t>(best) + 1);
 }
 
 bool lost_narrowly(const Trial& trial) {
-  return trial.lost && trial.lost->winner - trial.lost->loser < undecided && trial.lost->loser < needed;
+  return trial.untold ||
+         (trial.lost && trial.lost->winner - trial.lost->loser < undecided && trial.lost->loser < needed);
 }
 
 }  // namespace floe

@@ -23,6 +23,7 @@ struct Trial {
   double neg_llh = 0;                    // of all runs, with the same random numbers as its rivals'
   double chi_square = 0;                 // of its parameters about the model without it
   std::optional<Duel> lost;              // to a rival that fits nearly as well
+  bool untold = false;  // fits nearly as well as a rival, and the two could not be fitted together
 };
 
 // A trial with its fit, of which the suspect's parameters are the last.
@@ -44,7 +45,8 @@ double chi_square_of(const std::vector<IceParameter>& parameters, const IceFit& 
 // that adds more to the other wins.
 void hold_contest(const Model& base, double noise, const FitBeside& fit, std::vector<Candidate>& candidates);
 
-// Whether the duel that it lost was too close to tell it from the winner, and it is not there as well.
+// Whether the duel that it lost was too close to tell it from the winner, and it is not there as well; or
+// there could be none.
 bool lost_narrowly(const Trial& trial);
 
 }  // namespace floe

@@ -10,6 +10,7 @@
 #include "reco/diagnose/goodness.h"
 #include "reco/ice_fit/held_out_runs.h"
 #include "reco/ice_fit/model_judge.h"
+#include "reco/validation/two_sample_tests.h"
 
 namespace floe {
 
@@ -22,7 +23,8 @@ constexpr std::uint64_t look_stream = std::uint64_t{1} << 44, judge_stream = std
 constexpr double light_of_gap = 5;
 constexpr double leading_share = 0.35;  // of the best gain: suspects that are fitted, too
 constexpr std::size_t most_trials = 3;
-constexpr double light_of_pairs = 0.5;   // of fits, in units of a run's own simulation
+constexpr double light_of_pairs = 0.5;  // of fits, in units of a run's own simulation
+constexpr double light_of_first_round = 0.4;
 constexpr double hits_of_contest = 6e4;  // of each run, at least: rivals are alike
 constexpr double confirmed_share = 0.4;  // of the gain that a score promised, by a fit
 constexpr int rounds = 4, rounds_of_layers = 7, rounds_of_folds = 3, rounds_of_contest = 5;
@@ -39,8 +41,11 @@ void check_options(const DiagnosisOptions& options, std::size_t runs) {
           fmt::format("found {} folds; expected 1 to {}, the number of runs", options.folds, runs));
 }
 
-double normal_tail(double z) {
-  return std::erfc(z / std::sqrt(2.0)) / 2;
+// Of a -ln L at least as large, by chance: twice it is nearly a chi-square, and becomes one of the same mean
+// and deviation when it is scaled.
+double probability_of(double neg_llh, const ExpectedFit& right) {
+  const double variance = right.scatter * right.scatter;
+  return chi_square_probability(2 * neg_llh * right.mean / variance, 2 * right.mean * right.mean / variance);
 }
 
 class Diagnoser {
@@ -86,7 +91,7 @@ class Diagnoser {
       if (progress_) progress_(from_ + (to_ - from_) * fraction, text_ + ": " + what);
     };
   }
-  // Nobody knows how many steps there will be: each takes half of what is left.
+  // Nobody knows how many steps there will be: each takes three fifths of what is left.
   static double begin(int step) { return 0.03 + 0.87 * (1 - std::pow(0.4, step)); }
 
   // Whether there is a significant gap.
@@ -139,7 +144,7 @@ class Diagnoser {
     const ExpectedFit right = expected_fit(survey, draws());
     now.expected = right.mean;
     now.scatter = right.scatter;
-    now.p_of_fit = normal_tail((now.neg_llh - now.expected) / now.scatter);
+    now.p_of_fit = probability_of(now.neg_llh, right);
   }
 
   IceFit fit(const FlasherData& data, const std::vector<IceParameter>& parameters, int most_rounds,
@@ -150,6 +155,7 @@ class Diagnoser {
     options.most_rounds = most_rounds;
     options.judged = false;  // the same for all rivals, below
     options.pair_light = light_of_pairs;
+    options.first_light = light_of_first_round;
     return fit_ice(base_, data, parameters, options, part());
   }
 
@@ -163,7 +169,12 @@ class Diagnoser {
   bool add_effect(DiagnosisStep& now, int step) {
     if (now.scores.effects.empty() || now.scores.p_value >= options_.alpha / 2) return false;
     std::vector<Candidate> candidates = fit_leading(now, step);
-    if (candidates.empty()) return false;
+    if (candidates.empty()) {
+      if (const Suspect& leader = now.scores.effects.front().best.suspect; accepted_.has(leader))
+        result_.remarks.push_back(
+            fmt::format("What stays looks like more of {}, not as it was fitted", text_of(leader)));
+      return false;
+    }
     const double from = begin(step), to = begin(step + 1);
     stage(from + (to - from) * 0.8, to, "which of them is missing");
     hold_contest(
@@ -173,7 +184,12 @@ class Diagnoser {
         },
         candidates);
     for (const Candidate& candidate : candidates) now.trials.push_back(candidate.trial);
-    if (!is_confirmed(now)) return false;
+    if (!is_confirmed(now)) {
+      result_.remarks.push_back(
+          fmt::format("{} was suspected (p = {:.2g}), but no fit to fresh light confirms it",
+                      text_of(now.trials.front().suspect), now.scores.p_value));
+      return false;
+    }
     accept(now, candidates.front().fit);
     return true;
   }
@@ -183,18 +199,25 @@ class Diagnoser {
     const double from = begin(step), length = begin(step + 1) - from;
     for (const EffectScore& score : now.scores.effects) {
       const Score& suspect = score.best;
-      if (!leads(score, now.scores) || candidates.size() == most_trials || accepted_.has(suspect.suspect))
+      if (!leads(score, now.scores) || candidates.size() == most_trials || accepted_.has(suspect.suspect) ||
+          is_more_of_accepted(score, now.scores))
         continue;
       const double done = 0.4 + 0.4 * static_cast<double>(candidates.size()) / most_trials;
       stage(from + length * done, from + length * (done + 0.13), "fitting " + text_of(suspect.suspect));
       try {
         candidates.push_back(fitted(suspect));
-      } catch (const Error&) {
+      } catch (const InputError&) {
         result_.remarks.push_back(
             fmt::format("{} could not be fitted: no physical ice on its way", text_of(suspect.suspect)));
       }
     }
     return candidates;
+  }
+
+  // What an effect that is in the model already would explain best must not go to what is like it.
+  bool is_more_of_accepted(const EffectScore& effect, const ScoreTest& scores) const {
+    constexpr double alike = 0.5;
+    return accepted_.has(scores.effects.front().best.suspect) && effect.likeness > alike;
   }
 
   Candidate fitted(const Score& score) {
@@ -211,9 +234,10 @@ class Diagnoser {
   // The score chose the best of many suspects, and of noisy slopes: fresh light has to show a good part of
   // it.
   bool is_confirmed(const DiagnosisStep& now) const {
+    constexpr double by_chance = 0.01;
     const Trial& best = now.trials.front();
-    const double least = 3 + 0.5 * static_cast<double>(best.parameters.size());
-    return best.chi_square / 2 > std::max(least, confirmed_share * score_of_winner(now).best.gain);
+    return chi_square_probability(best.chi_square, static_cast<double>(best.parameters.size())) < by_chance &&
+           best.chi_square / 2 > confirmed_share * score_of_winner(now).best.gain;
   }
   // Every trial is of an effect that has a score.
   static const EffectScore& score_of_winner(const DiagnosisStep& now) {
@@ -234,7 +258,6 @@ class Diagnoser {
     for (const Separation& separation : separations_)
       if (separation.effect == named.group.front() && contains(named.group, separation.other))
         named.separations.push_back(separation);
-    named.significance = std::sqrt(trial.chi_square);
     accepted_.add(std::move(named), fit);
     now.added = accepted_.effects().size() - 1;
     retest();
@@ -274,34 +297,34 @@ class Diagnoser {
       result_.remarks.push_back(fmt::format("{} was given up when {} came in: {:.1f} standard deviations",
                                             text_of(effects[faded->effect].suspect),
                                             text_of(effects.back().suspect), faded->sigmas));
-      accepted_.drop(faded->effect);
-      for (DiagnosisStep& step : result_.steps)
-        if (step.added == faded->effect)
-          step.added.reset();
-        else if (step.added && *step.added > faded->effect)
-          --*step.added;
+      drop(faded->effect);
       // What it had taken goes to the others.
       accepted_.take(fit(data_, accepted_.parameters(), rounds));
     }
   }
-  void give_up_everything(const std::string& why) {
-    for (const NamedEffect& effect : accepted_.effects())
-      result_.remarks.push_back(fmt::format("{} was given up: {}", text_of(effect.suspect), why));
-    accepted_.clear();
-    for (DiagnosisStep& step : result_.steps) step.added.reset();
+  void drop(std::size_t effect) {
+    accepted_.drop(effect);
+    for (DiagnosisStep& step : result_.steps)
+      if (step.added == effect)
+        step.added.reset();
+      else if (step.added && *step.added > effect)
+        --*step.added;
+  }
+  void give_up(std::size_t effect, const std::string& why) {
+    result_.remarks.push_back(
+        fmt::format("{} was given up: {}", text_of(accepted_.effects()[effect].suspect), why));
+    drop(effect);
   }
 
   void finish(bool unexplained) {
     // Where all that may be added still leaves a gap, each has taken a part of what none of them is.
     const std::size_t named = accepted_.effects().size(), looks = result_.steps.size();
     if (unexplained && looks > static_cast<std::size_t>(options_.most_effects) && named > 1)
-      give_up_everything(fmt::format("{} effects together leave a gap, and none of them names it", named));
-    const double noise = measure_gaps();
-    if (result_.gap_after > result_.gap_before + noise) {
-      // What makes light worse that the fit has not seen is not what is missing.
-      give_up_everything("runs that were held out fit worse with it");
-      for (RunGap& run : result_.gaps) run.after = run.before;
-      result_.gap_after = result_.gap_before;
+      while (!accepted_.empty())
+        give_up(0, fmt::format("{} effects together leave a gap, and none of them names it", named));
+    const bool found = !accepted_.empty();
+    measure_gaps();
+    if (found && accepted_.empty()) {
       // A score that no held-out light confirms is none.
       result_.p_value = std::min(1.0, 2 * result_.steps.front().p_of_fit);
       unexplained = result_.p_value < options_.alpha;
@@ -313,28 +336,48 @@ class Diagnoser {
     result_.beside_ice = accepted_.beside_ice();
   }
 
-  // Returns the standard deviation of a difference of gaps: the noise of their simulations.
-  double measure_gaps() {
+  // Gives up what makes light worse that the fit has not seen, by more than the noise of the simulations: the
+  // last effect first, which may have come by what an earlier one has left.
+  void measure_gaps() {
     RunSettings settings = options_;
-    settings.light.light *= light_of_gap;
-    settings.light.least_hits *= light_of_gap;
+    if (!accepted_.empty()) settings.light.light *= light_of_gap, settings.light.least_hits *= light_of_gap;
     const ModelJudge judge(base_, data_, look_, settings, gap_stream);
     result_.gaps = gaps_of(base_, data_, judge);
+    for (const RunGap& run : result_.gaps) result_.gap_before += run.before;
+    result_.gap_after = result_.gap_before;
+    const double noise = 2 * judge.noise_of_differences();
+    while (!accepted_.empty()) {
+      measure_held_out(judge);
+      if (result_.gap_after <= result_.gap_before + noise) return;
+      give_up(accepted_.effects().size() - 1, "runs that were held out fit worse with it");
+      for (RunGap& run : result_.gaps) run.after = run.before;
+      result_.gap_after = result_.gap_before;
+      if (!accepted_.empty()) accepted_.take(fit(data_, accepted_.parameters(), rounds));
+    }
+  }
+
+  void measure_held_out(const ModelJudge& judge) {
     const int folds = std::min(options_.folds, static_cast<int>(data_.runs.size()));
     const HeldOutRuns held_out(data_, *base_.detector, folds);
     const auto model_without = [&](int fold) {
       stage(0.9 + 0.1 * fold / folds, 0.9 + 0.1 * (fold + 1) / folds, "holding runs out");
       return folds == 1 ? accepted_.model() : fitted_to(held_out.rest(data_, fold));
     };
-    if (!accepted_.empty()) hold_out(held_out, judge, model_without, result_.gaps);
-    for (const RunGap& run : result_.gaps) result_.gap_before += run.before, result_.gap_after += run.after;
-    return 2 * judge.noise_of_differences();
+    hold_out(held_out, judge, model_without, result_.gaps);
+    result_.gap_after = 0;
+    for (const RunGap& run : result_.gaps) result_.gap_after += run.after;
   }
+
+  // The base where the other runs lead to no ice that can be: they tell nothing of this then.
   Model fitted_to(const FlasherData& rest) {
     std::vector<IceParameter> parameters = accepted_.parameters();
     for (IceParameter& p : parameters) expect_no_change(p);
-    const IceFit blind = fit(rest, parameters, rounds_of_folds);
-    return with_parameters(base_, blind.parameters, blind.numbers);
+    try {
+      const IceFit blind = fit(rest, parameters, rounds_of_folds);
+      return with_parameters(base_, blind.parameters, blind.numbers);
+    } catch (const InputError&) {
+      return base_;
+    }
   }
   // What only the runs that are held out tell of is not known: a prior, as wide as a large change, leaves it
   // where it changes nothing, and the place of a band where it is.

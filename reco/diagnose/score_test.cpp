@@ -265,6 +265,7 @@ ScoreTest ScoreTester::test(const SurveyCounts& counts, double floor) const {
         effect.likeness =
             std::max(effect.likeness, imitation(first.best, of_first, t, survey_.information).likeness);
   }
+  result.effects.front().likeness = 1;  // whatever its slopes are
   return result;
 }
 

@@ -44,6 +44,7 @@ void check(const IceFitOptions& options) {
   if (!(options.efficiency_width >= 0 && options.efficiency_width <= 1))
     throw UsageError("the width of efficiencies must be from 0 to 1");
   if (!(options.pair_light > 0)) throw UsageError("pairs of simulations need light");
+  if (!(options.first_light > 0)) throw UsageError("the first round needs light");
   if (options.most_rounds < 1) throw UsageError("a fit needs at least one round");
 }
 
@@ -199,7 +200,7 @@ class Fit {
                   ScoreSystem& system) {
     const RunData& run = data_.runs[r];
     RunState& state = states_[r];
-    const double photons = photons_of(r);
+    const double photons = (round_ == 1 ? options_.first_light : 1) * photons_of(r);
     const RunBins& bins = state.bins;
     const RunRequest request = this->request(r, 2, photons);
     const SimulatedRun simulated = simulate(point.model(), request, state.time_zero);

@@ -1,5 +1,11 @@
 #include "reco/ice_fit/model_judge.h"
 
+#include <omp.h>
+
+#include <numeric>
+#include <random>
+#include <vector>
+
 #include "reco/ice_fit/photon_draws.h"
 
 namespace floe {
@@ -50,17 +56,21 @@ ModelJudge::Fit ModelJudge::judge(const Model& model, std::size_t run) const {
   const double factor = dispersion(simulated), brightness = fit.measured.nuisances.brightness;
   const PhotonDraws pseudo(simulated, views_[run].bins, brightness / photons_[run],
                            data_.runs[run].run.oversize > 1, data_.runs[run].charge_dispersion);
-  const std::uint64_t stream = stream_ + run;
-  std::seed_seq sequence{settings_.seed, settings_.seed >> 32, stream, stream >> 32};
-  std::mt19937_64 random(sequence);
+  std::vector<double> drawn(draws);
+  const int threads = settings_.threads > 0 ? settings_.threads : omp_get_num_procs();
+#pragma omp parallel for num_threads(threads)
   for (int d = 0; d < draws; ++d) {
-    const FoldedCounts drawn = pseudo.draw(random);
-    const Eigen::VectorXd counts = (drawn.simulated[0] + drawn.simulated[1]) / factor;
-    fit.expected +=
-        measure_counts({drawn.data, counts, photons_[run] / factor}, brightness, settings_.model_error)
-            .neg_llh /
-        draws;
+    const std::uint64_t stream = (stream_ + run) * draws + static_cast<std::uint64_t>(d);
+    std::seed_seq sequence{settings_.seed, settings_.seed >> 32, stream, stream >> 32};
+    std::mt19937_64 random(sequence);
+    const FoldedCounts counts = pseudo.draw(random);
+    const Eigen::VectorXd simulated_counts = (counts.simulated[0] + counts.simulated[1]) / factor;
+    drawn[static_cast<std::size_t>(d)] =
+        measure_counts({counts.data, simulated_counts, photons_[run] / factor}, brightness,
+                       settings_.model_error)
+            .neg_llh;
   }
+  fit.expected = std::accumulate(drawn.begin(), drawn.end(), 0.0) / draws;
   return fit;
 }
 
