@@ -82,8 +82,11 @@ void hold_contest(const Model& base, double noise, const FitBeside& fit, std::ve
 }
 
 bool lost_narrowly(const Trial& trial) {
-  return trial.untold ||
-         (trial.lost && trial.lost->winner - trial.lost->loser < undecided && trial.lost->loser < needed);
+  return trial.untold || (trial.lost && trial.lost->winner - trial.lost->loser < undecided);
+}
+
+bool is_there_as_well(const Trial& trial) {
+  return trial.lost && trial.lost->loser >= needed;
 }
 
 }  // namespace floe

@@ -45,8 +45,10 @@ double chi_square_of(const std::vector<IceParameter>& parameters, const IceFit& 
 // that adds more to the other wins.
 void hold_contest(const Model& base, double noise, const FitBeside& fit, std::vector<Candidate>& candidates);
 
-// Whether the duel that it lost was too close to tell it from the winner, and it is not there as well; or
-// there could be none.
+// Whether the duel that it lost was too close to tell it from the winner, or there could be none.
 bool lost_narrowly(const Trial& trial);
+
+// Whether it lost its duel, but is needed beside the winner.
+bool is_there_as_well(const Trial& trial);
 
 }  // namespace floe

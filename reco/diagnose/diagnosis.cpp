@@ -147,16 +147,24 @@ class Diagnoser {
     now.p_of_fit = probability_of(now.neg_llh, right);
   }
 
-  IceFit fit(const FlasherData& data, const std::vector<IceParameter>& parameters, int most_rounds,
-             double least_hits = 0) {
+  IceFitOptions fit_options(int most_rounds) const {
     IceFitOptions options;
     static_cast<RunSettings&>(options) = options_;
-    options.light.least_hits = std::max(options.light.least_hits, least_hits);
     options.most_rounds = most_rounds;
     options.judged = false;  // the same for all rivals, below
+    return options;
+  }
+  IceFit fit(const FlasherData& data, const std::vector<IceParameter>& parameters, int most_rounds) {
+    IceFitOptions options = fit_options(most_rounds);
     options.pair_light = light_of_pairs;
     options.first_light = light_of_first_round;
     return fit_ice(base_, data, parameters, options, part());
+  }
+  // Where rivals are alike, noise of slopes and simulations decides soonest.
+  IceFit joint_fit(const std::vector<IceParameter>& parameters) {
+    IceFitOptions options = fit_options(rounds_of_contest);
+    options.light.least_hits = std::max(options.light.least_hits, hits_of_contest);
+    return fit_ice(base_, data_, parameters, options, part());
   }
 
   double neg_llh_of_all(const Model& model) const {
@@ -179,10 +187,7 @@ class Diagnoser {
     stage(from + (to - from) * 0.8, to, "which of them is missing");
     hold_contest(
         base_, judge_->noise_of_differences(),
-        [this](const auto& parameters) {
-          return fit(data_, accepted_.parameters(parameters), rounds_of_contest, hits_of_contest);
-        },
-        candidates);
+        [this](const auto& parameters) { return joint_fit(accepted_.parameters(parameters)); }, candidates);
     for (const Candidate& candidate : candidates) now.trials.push_back(candidate.trial);
     if (!is_confirmed(now)) {
       result_.remarks.push_back(
@@ -332,8 +337,23 @@ class Diagnoser {
     result_.improved = accepted_.model();
     result_.effects = accepted_.effects();
     for (const NamedEffect& effect : result_.effects) result_.verdict.push_back(effect.suspect.effect);
+    tell_apart_what_came_in();
     if (unexplained) result_.verdict.push_back("unexplained");
     result_.beside_ice = accepted_.beside_ice();
+  }
+
+  // A rival that a joint fit needed as well is no alternative once it has been named itself.
+  void tell_apart_what_came_in() {
+    for (const DiagnosisStep& step : result_.steps) {
+      if (!step.added) continue;
+      NamedEffect& winner = result_.effects[*step.added];
+      for (const Trial& trial : step.trials) {
+        const std::string& rival = trial.suspect.effect;
+        if (!is_there_as_well(trial) || !contains(result_.verdict, rival)) continue;
+        std::erase(winner.group, rival);
+        std::erase_if(winner.separations, [&](const Separation& other) { return other.other == rival; });
+      }
+    }
   }
 
   // Gives up what makes light worse that the fit has not seen, by more than the noise of the simulations: the
