@@ -369,7 +369,9 @@ class Diagnoser {
     while (!accepted_.empty()) {
       measure_held_out(judge);
       if (result_.gap_after <= result_.gap_before + noise) return;
-      give_up(accepted_.effects().size() - 1, "runs that were held out fit worse with it");
+      give_up(accepted_.effects().size() - 1,
+              fmt::format("runs that were held out fit worse with it (a gap of {:.1f} instead of {:.1f})",
+                          result_.gap_after, result_.gap_before));
       for (RunGap& run : result_.gaps) run.after = run.before;
       result_.gap_after = result_.gap_before;
       if (!accepted_.empty()) accepted_.take(fit(data_, accepted_.parameters(), rounds));

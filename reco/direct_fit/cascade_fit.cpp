@@ -85,11 +85,13 @@ std::string outside_words(double metres) {
   return "the vertex is " + std::to_string(std::lround(metres)) + " m outside the instrumented volume";
 }
 
-void judge(const Search::End& end, const EventData& data, const TrackTest& track, CascadeFit& fit) {
+void judge(const Search::End& end, const EventData& data, const TrackTest& track, bool with_energy,
+           CascadeFit& fit) {
   const double outside = InstrumentedVolume(data.detector()).distance_outside(fit.cascade.position);
-  if (!end.converged) {
+  if (!end.converged || !with_energy) {
     fit.status = FitStatus::no_convergence;
-    fit.reason = "no convergence after " + std::to_string(fit.rounds.size()) + " rounds: " + end.trouble;
+    fit.reason = "no convergence after " + std::to_string(fit.rounds.size()) +
+                 " rounds: " + (end.converged ? "the data do not determine the energy" : end.trouble);
     // The likely cause, where there is one.
     if (track.track_like) fit.reason += "; the event looks like a track: " + track.words();
     if (outside > outside_by) fit.reason += "; " + outside_words(outside);
@@ -130,6 +132,7 @@ void find_result(ExpectationModel& light, const EventData& data, const FitOption
     const Matrix7 bound = cramer_rao_bound(light, fit.cascade, data, options, &fit);
     fit.covariance = no_less_than(data.charge_dispersion() * bound, fit.covariance);
   }
+  const bool with_energy = determines_energy(fit.covariance, fit.cascade.energy);
   if (const std::optional<Vec3> axis = axis_of_only_string(data); axis && end.converged) {
     if (progress) progress(0.9, "looking around the string");
     const double photons = search.photons_for(fit.cascade, options.oversize, {3, 1e6, 2e6});
@@ -141,7 +144,7 @@ void find_result(ExpectationModel& light, const EventData& data, const FitOption
 
   fit.errors_beyond_likelihood = fit.covariance != of_likelihood;
 
-  judge(end, data, track, fit);
+  judge(end, data, track, with_energy, fit);
   look_around(end, options, fit);
   if (!options.goodness) return;
   if (progress) progress(0.92, "measuring the fit");
@@ -156,6 +159,10 @@ void find_result(ExpectationModel& light, const EventData& data, const FitOption
 }
 
 }  // namespace
+
+bool determines_energy(const Matrix7& covariance, double energy) {
+  return covariance(6, 6) < energy * energy;
+}
 
 std::string name_of(FitStatus status) {
   switch (status) {

@@ -24,7 +24,7 @@ class ExpectationModel;  // reco/direct_fit/expectation_model.h
 
 // Goes up when results of the same event and options change, errors included: files that go on with earlier
 // results compare it.
-constexpr int cascade_fit_revision = 4;
+constexpr int cascade_fit_revision = 5;
 
 struct FitOptions {
   // The hypothesis: electron (the energy is then EM-equivalent) or hadron.
@@ -128,6 +128,10 @@ CascadeFit fit_cascade(const Model& model, const Event& event, const FitOptions&
 // The same over any source of expected light; what the above calls with simulated light.
 CascadeFit fit_cascade(ExpectationModel& light, const EventData& data, const FitOptions& options,
                        const Progress& progress = {});
+
+// Whether the error of the energy, before what competing minima add to it, is smaller than the energy [GeV].
+// Where it is not, the likelihood has no minimum that errors could describe, and a fit has not converged.
+bool determines_energy(const Matrix7& covariance, double energy);
 
 // "position x y z m, zenith ..." with errors: a few lines for people.
 std::string describe(const CascadeFit& fit);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "data/base/error.h"
@@ -47,6 +48,16 @@ TEST(CascadeFit, FindsToyCascadesFromHitsAlone) {
   for (int i = 0; i < 7; ++i) EXPECT_LT(square(i), 26.1 * 1.3 * 1.3) << "parameter " << i;
   EXPECT_LT(std::sqrt(square.sum() / 56), 1.35);
   EXPECT_GT(std::sqrt(square.sum() / 56), 0.65);
+}
+
+// Seen in the study: 208 photoelectrons from dust, "353 PeV +- 865 PeV" instead of 100 TeV.
+TEST(CascadeFit, HasAnEnergyWhenItsErrorIsSmaller) {
+  Matrix7 covariance = Matrix7::Identity();
+  covariance(6, 6) = 90.0 * 90.0;
+  EXPECT_TRUE(determines_energy(covariance, 100));
+  EXPECT_FALSE(determines_energy(covariance, 80));
+  covariance(6, 6) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(determines_energy(covariance, 80));
 }
 
 TEST(CascadeFit, IsTheSameForAnyNumberOfThreads) {
