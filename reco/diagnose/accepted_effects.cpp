@@ -105,10 +105,6 @@ void AcceptedEffects::drop(std::size_t effect) {
   effects_.erase(effects_.begin() + static_cast<std::ptrdiff_t>(effect));
 }
 
-void AcceptedEffects::clear() {
-  effects_.clear(), parameters_.clear(), numbers_.clear();
-}
-
 EffectGroups AcceptedEffects::beside_ice() const {
   EffectGroups groups;
   for (const NamedEffect& effect : effects_)

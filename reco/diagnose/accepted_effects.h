@@ -61,7 +61,6 @@ class AcceptedEffects {
   };
   std::optional<Faded> faded() const;
   void drop(std::size_t effect);
-  void clear();
 
   // Those that no file of an ice directory can hold but floe.toml.
   EffectGroups beside_ice() const;
