@@ -116,6 +116,10 @@ DepthRange layers_of(const FlasherDepths& flashers, std::size_t runs) {
   constexpr std::size_t most = 10;
   return {flashers.shallowest - beyond, flashers.deepest + beyond, static_cast<int>(std::min(most, runs))};
 }
+DepthRange slopes_of(const FlasherDepths& flashers, std::size_t runs) {
+  constexpr std::size_t runs_a_slope = 2;
+  return layers_of(flashers, std::max<std::size_t>(1, runs / runs_a_slope));
+}
 
 SuspectPlan plan_suspects(const Model& model, const FlasherDepths& flashers, std::size_t runs,
                           double oversize) {
@@ -127,9 +131,9 @@ SuspectPlan plan_suspects(const Model& model, const FlasherDepths& flashers, std
       if (matters(model, p)) plan.parameters.push_back(std::move(p));
     }
   }
-  // Ice of other ages follows the bed below in its own way: a slope for each depth (arXiv:1301.5361).
+  // Ice of other ages follows the bed below in its own way: it has its slope at each depth (arXiv:1301.5361).
   plan.first_tilt = static_cast<int>(plan.parameters.size());
-  plan.tilt = layers_of(flashers, runs);
+  plan.tilt = slopes_of(flashers, runs);
   for (IceParameter& p : tilt_parameters(plan.tilt)) plan.parameters.push_back(std::move(p));
   const auto& layers = model.ice->tables().layers;
   DepthRange range{std::max(flashers.shallowest - beyond_flashers, layers.front().depth),

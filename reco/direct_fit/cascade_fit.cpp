@@ -148,7 +148,7 @@ void find_result(ExpectationModel& light, const EventData& data, const FitOption
   look_around(end, options, fit);
   if (!options.goodness) return;
   if (progress) progress(0.92, "measuring the fit");
-  const double photons = search.photons_for(fit.cascade, options.oversize, {3, 4e6, 8e6});
+  const double photons = search.photons_for(fit.cascade, options.oversize, {3, 4e6, 5e6});
   const Evaluation evaluation =
       evaluate_cascade(light, end.edges.empty() ? data : data.with_edges(end.edges), fit.cascade, photons,
                        options.oversize, evaluations, evaluation_stream, options.model_error);

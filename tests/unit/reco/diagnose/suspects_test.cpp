@@ -157,9 +157,14 @@ TEST_F(Suspects, BandsLieWithinTheDepthsThatFlashersReach) {
   EXPECT_EQ(plan_.parameters[static_cast<std::size_t>(plan_.first_layer)].family, "absorption");
 }
 
-TEST_F(Suspects, TiltHasASlopeForEachRun) {
-  EXPECT_EQ(plan_.first_layer - plan_.first_tilt, 3);
+// What one run alone tells could not be held out.
+TEST_F(Suspects, TiltHasASlopeForTwoRuns) {
+  EXPECT_EQ(plan_.first_layer - plan_.first_tilt, 1);
   EXPECT_EQ(plan_.parameters[static_cast<std::size_t>(plan_.first_tilt)].family, "tilt");
+  const FlasherDepths depths{1700, 2000};
+  EXPECT_EQ(slopes_of(depths, 1).groups, 1);
+  EXPECT_EQ(slopes_of(depths, 6).groups, 3);
+  EXPECT_EQ(slopes_of(depths, 100).groups, 10);
 }
 
 TEST_F(Suspects, BecomeParametersOfAFit) {
