@@ -25,6 +25,9 @@ constexpr double leading_share = 0.35;  // of the best gain: suspects that are f
 constexpr std::size_t most_trials = 3;
 constexpr double light_of_pairs = 0.5;  // of fits, in units of a run's own simulation
 constexpr double light_of_first_round = 0.4;
+// Of fits to a part of the runs, in units of that: what they tell of the others is extrapolated, and so is the
+// noise of their simulations.
+constexpr double light_of_folds = 2.5;
 constexpr double hits_of_contest = 6e4;  // of each run, at least: rivals are alike
 constexpr double confirmed_share = 0.4;  // of the gain that a score promised, by a fit
 constexpr int rounds = 4, rounds_of_layers = 7, rounds_of_folds = 3, rounds_of_contest = 5;
@@ -159,6 +162,14 @@ class Diagnoser {
     options.pair_light = light_of_pairs;
     options.first_light = light_of_first_round;
     return fit_ice(base_, data, parameters, options, part());
+  }
+  IceFit fit_to_part(const FlasherData& rest, const std::vector<IceParameter>& parameters) {
+    IceFitOptions options = fit_options(rounds_of_folds);
+    options.light.light *= light_of_folds, options.light.least_hits *= light_of_folds;
+    // The first round and slopes have enough.
+    options.pair_light = light_of_pairs / light_of_folds;
+    options.first_light = light_of_first_round / light_of_folds;
+    return fit_ice(base_, rest, parameters, options, part());
   }
   // Where rivals are alike, noise of slopes and simulations decides soonest.
   IceFit joint_fit(const std::vector<IceParameter>& parameters) {
@@ -395,7 +406,7 @@ class Diagnoser {
     std::vector<IceParameter> parameters = accepted_.parameters();
     for (IceParameter& p : parameters) expect_no_change(p);
     try {
-      const IceFit blind = fit(rest, parameters, rounds_of_folds);
+      const IceFit blind = fit_to_part(rest, parameters);
       return with_parameters(base_, blind.parameters, blind.numbers);
     } catch (const InputError&) {
       return base_;
