@@ -25,8 +25,8 @@ constexpr double leading_share = 0.35;  // of the best gain: suspects that are f
 constexpr std::size_t most_trials = 3;
 constexpr double light_of_pairs = 0.5;  // of fits, in units of a run's own simulation
 constexpr double light_of_first_round = 0.4;
-// Of fits to a part of the runs, in units of that: what they tell of the others is extrapolated, and so is the
-// noise of their simulations.
+// Of fits to a part of the runs, in units of that: what they tell of the others is extrapolated, and so is
+// the noise of their simulations.
 constexpr double light_of_folds = 2.5;
 constexpr double hits_of_contest = 6e4;  // of each run, at least: rivals are alike
 constexpr double confirmed_share = 0.4;  // of the gain that a score promised, by a fit

@@ -19,7 +19,9 @@ constexpr double acceptable_pull = 1.5;  // of the last step of all
 constexpr double least_fresh_share = 0.2, acceptable_loss = 1.3, most_training = 6;
 constexpr double acceptable_dispersion = 1.8, least_reach = 0.3;
 constexpr double last_training = 2.5, last_judging = 2.5;  // photons of the last calibration, times the usual
-constexpr double close_enough = 1.2;                       // last steps, in steps of the narrow design
+// Photons that judge, of bright cascades and in each fold: the usual, and at most with `last_judging`.
+constexpr double most_judging = 3.2e7, most_last_judging = 5e7;
+constexpr double close_enough = 1.2;  // last steps, in steps of the narrow design
 // [photoelectrons] expected: hardly any module stays dark.
 constexpr double surely_seen = 4;
 
@@ -116,7 +118,8 @@ void Search::calibrate(End& end, CalibrationNeed& need) {
   const auto [wide, narrow] =
       calibration_stages(data_, end.light, need.errors, need.reach, options_.oversize);
   const double for_training = need.training * photons_for(here, wide.oversize, {100, 1e6, 1e7});
-  const double for_judging = need.judging * photons_for(here, narrow.oversize, {5, 2e6, 3.2e7});
+  const double most = std::min(most_judging, most_last_judging / need.judging);
+  const double for_judging = need.judging * photons_for(here, narrow.oversize, {5, 2e6, most});
   const std::vector<const LightSample*> training[2] = {
       enough(frame, wide, for_training, Purpose::first_emulator),
       enough(frame, wide, for_training, Purpose::second_emulator)};
