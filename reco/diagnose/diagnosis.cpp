@@ -157,19 +157,14 @@ class Diagnoser {
     options.judged = false;  // the same for all rivals, below
     return options;
   }
-  IceFit fit(const FlasherData& data, const std::vector<IceParameter>& parameters, int most_rounds) {
+  // `light`: in units of other fits'; the first round and slopes from pairs have enough.
+  IceFit fit(const FlasherData& data, const std::vector<IceParameter>& parameters, int most_rounds,
+             double light = 1) {
     IceFitOptions options = fit_options(most_rounds);
-    options.pair_light = light_of_pairs;
-    options.first_light = light_of_first_round;
+    options.light.light *= light, options.light.least_hits *= light;
+    options.pair_light = light_of_pairs / light;
+    options.first_light = light_of_first_round / light;
     return fit_ice(base_, data, parameters, options, part());
-  }
-  IceFit fit_to_part(const FlasherData& rest, const std::vector<IceParameter>& parameters) {
-    IceFitOptions options = fit_options(rounds_of_folds);
-    options.light.light *= light_of_folds, options.light.least_hits *= light_of_folds;
-    // The first round and slopes have enough.
-    options.pair_light = light_of_pairs / light_of_folds;
-    options.first_light = light_of_first_round / light_of_folds;
-    return fit_ice(base_, rest, parameters, options, part());
   }
   // Where rivals are alike, noise of slopes and simulations decides soonest.
   IceFit joint_fit(const std::vector<IceParameter>& parameters) {
@@ -406,7 +401,7 @@ class Diagnoser {
     std::vector<IceParameter> parameters = accepted_.parameters();
     for (IceParameter& p : parameters) expect_no_change(p);
     try {
-      const IceFit blind = fit_to_part(rest, parameters);
+      const IceFit blind = fit(rest, parameters, rounds_of_folds, light_of_folds);
       return with_parameters(base_, blind.parameters, blind.numbers);
     } catch (const InputError&) {
       return base_;
