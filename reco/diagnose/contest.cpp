@@ -1,6 +1,7 @@
 #include "reco/diagnose/contest.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "data/base/error.h"
 
@@ -8,10 +9,11 @@ namespace floe {
 
 namespace {
 
-constexpr double close = 2;      // differences of -ln L, in units of their noise
-constexpr double undecided = 6;  // differences of chi-square
-constexpr double needed = 9;     // chi-square of an effect that is there beside the other
-constexpr double held = 1e-3;    // width of a prior, in the parameter's scale, that leaves a band where it is
+constexpr double close = 2;          // differences of -ln L, in units of their noise
+constexpr double undecided = 6;      // differences of chi-square
+constexpr double beyond_doubt = 25;  // likewise: later rounds move it by less
+constexpr double needed = 9;         // chi-square of an effect that is there beside the other
+constexpr double held = 1e-3;  // width of a prior, in the parameter's scale, that leaves a band where it is
 
 double parameters_in(const Trial& trial) {
   return static_cast<double>(trial.parameters.size());
@@ -40,10 +42,15 @@ std::pair<double, double> duel(const Candidate& leader, const Candidate& challen
   std::vector<IceParameter> both = parameters_of(leader, base);
   const std::size_t own = both.size();
   for (IceParameter& p : parameters_of(challenger, base)) both.push_back(std::move(p));
-  const IceFit joint = fit(both);
-  const std::size_t first = joint.numbers.size() - both.size();
-  return {chi_square_of(leader.trial.parameters, joint, first, base),
-          chi_square_of(challenger.trial.parameters, joint, first + own, base)};
+  const auto added = [&](const IceFit& joint) -> std::pair<double, double> {
+    const std::size_t first = joint.numbers.size() - both.size();
+    return {chi_square_of(leader.trial.parameters, joint, first, base),
+            chi_square_of(challenger.trial.parameters, joint, first + own, base)};
+  };
+  return added(fit(both, [&](const IceFit& joint) {
+    const auto [of_leader, of_challenger] = added(joint);
+    return std::abs(of_leader - of_challenger) > beyond_doubt;
+  }));
 }
 
 }  // namespace

@@ -32,8 +32,10 @@ struct Candidate {
   IceFit fit;
 };
 
-// Fits these beside all that is in the model already, which come first in the result.
-using FitBeside = std::function<IceFit(const std::vector<IceParameter>& more)>;
+// Fits these beside all that is in the model already, which come first in the result, until the fit has
+// converged or is `settled` (IceFitOptions).
+using FitBeside = std::function<IceFit(const std::vector<IceParameter>& more,
+                                       const std::function<bool(const IceFit&)>& settled)>;
 
 // Chi-square of these parameters of a fit, which begin at `first`, about the model without their effect. The
 // place of a band is no change of the model.
@@ -42,7 +44,7 @@ double chi_square_of(const std::vector<IceParameter>& parameters, const IceFit& 
 
 // Puts the best first. -ln L decides, with half a unit for each parameter, where the differences are larger
 // than the `noise` of simulations; candidates that are closer are fitted together, two at a time, and the one
-// that adds more to the other wins.
+// that adds more to the other wins. A duel ends early when the difference is beyond doubt.
 void hold_contest(const Model& base, double noise, const FitBeside& fit, std::vector<Candidate>& candidates);
 
 // Whether the duel that it lost was too close to tell it from the winner, or there could be none.

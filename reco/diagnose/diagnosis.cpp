@@ -167,8 +167,10 @@ class Diagnoser {
     return fit_ice(base_, data, parameters, options, part());
   }
   // Where rivals are alike, noise of slopes and simulations decides soonest.
-  IceFit joint_fit(const std::vector<IceParameter>& parameters) {
+  IceFit joint_fit(const std::vector<IceParameter>& parameters,
+                   const std::function<bool(const IceFit&)>& settled) {
     IceFitOptions options = fit_options(rounds_of_contest);
+    options.settled = settled;
     options.light.least_hits = std::max(options.light.least_hits, hits_of_contest);
     return fit_ice(base_, data_, parameters, options, part());
   }
@@ -193,7 +195,10 @@ class Diagnoser {
     stage(from + (to - from) * 0.8, to, "which of them is missing");
     hold_contest(
         base_, judge_->noise_of_differences(),
-        [this](const auto& parameters) { return joint_fit(accepted_.parameters(parameters)); }, candidates);
+        [this](const auto& parameters, const auto& settled) {
+          return joint_fit(accepted_.parameters(parameters), settled);
+        },
+        candidates);
     for (const Candidate& candidate : candidates) now.trials.push_back(candidate.trial);
     if (!is_confirmed(now)) {
       result_.remarks.push_back(

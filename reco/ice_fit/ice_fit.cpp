@@ -70,13 +70,20 @@ class Fit {
 
   IceFit run() {
     look_first();
-    for (round_ = 1; round_ <= options_.most_rounds && !fit_.converged; ++round_) one_round();
+    for (round_ = 1; round_ <= options_.most_rounds && !fit_.converged && !is_settled(); ++round_)
+      one_round();
     fit_.rounds = round_ - 1;
     if (options_.judged) judge();
     return std::move(fit_);
   }
 
  private:
+  // Before the round that comes: slopes gather from the second one on.
+  bool is_settled() const {
+    constexpr int with_gathered_slopes = 3;
+    return options_.settled && round_ > with_gathered_slopes && options_.settled(fit_);
+  }
+
   std::size_t count() const { return fit_.parameters.size(); }
   Model model() const { return with_parameters(base_, fit_.parameters, fit_.numbers); }
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,6 +17,8 @@
 
 namespace floe {
 
+struct IceFit;
+
 struct IceFitOptions : RunSettings {
   double smoothness = 0.5;  // prior: width of the difference between neighbouring layers, in the logarithm
   double amplitude = 1;     // prior: width of each parameter about where it began, in the logarithm
@@ -27,6 +30,9 @@ struct IceFitOptions : RunSettings {
   // Of the first round, in units of a later one's: it only leads near to where the others go on.
   double first_light = 1;
   int most_rounds = 6;
+  // Asked about the fit so far, once slopes of two rounds are gathered: whether what it was wanted for is
+  // settled. Empty: it goes on until it has converged.
+  std::function<bool(const IceFit&)> settled;
   bool judged = true;  // by fresh simulations at the end; without, IceFit::runs and neg_llh are missing
 };
 
@@ -66,8 +72,8 @@ struct IceFit {
 
 // Gauss-Newton rounds: simulate every run in the current model, read slopes off the detected photons' paths,
 // solve for the parameters (each run's brightness and time zero fitted along, efficiencies where they are
-// asked for), until two steps are small. Throws UsageError for options out of range, NoResult when no run has
-// light to fit.
+// asked for), until two steps are small or `settled`. Throws UsageError for options out of range, NoResult
+// when no run has light to fit.
 IceFit fit_ice(const Model& base, const FlasherData& data, const std::vector<IceParameter>& parameters,
                const IceFitOptions& options, const Progress& progress = {});
 

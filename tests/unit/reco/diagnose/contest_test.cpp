@@ -39,7 +39,8 @@ class Contest : public ::testing::Test {
 TEST_F(Contest, FarApartTheLikelihoodDecides) {
   auto candidates = rivals(185 + 2.1 * noise_);
   hold_contest(
-      base_, noise_, [](const auto&) -> IceFit { throw std::logic_error("fitted"); }, candidates);
+      base_, noise_, [](const auto&, const auto&) -> IceFit { throw std::logic_error("fitted"); },
+      candidates);
   EXPECT_EQ(candidates[0].trial.suspect.effect, "scattering-anisotropy");
   EXPECT_FALSE(candidates[1].trial.lost);
 }
@@ -48,11 +49,13 @@ TEST_F(Contest, CloseRivalsMeetInOneFit) {
   auto candidates = rivals(185 + 1.5 * noise_);
   hold_contest(
       base_, noise_,
-      [](const std::vector<IceParameter>& both) {
+      [](const std::vector<IceParameter>& both, const auto& settled) {
         // Both begin where nothing is changed.
         EXPECT_EQ(both[0].name, "scattering-anisotropy.k1");
         EXPECT_EQ(both[0].start, 0);
         EXPECT_EQ(both[1].start, 0.6);
+        EXPECT_FALSE(settled(fit_with({99, 0.02, 0.1}, {1, 0.02, 0.1})));  // 24: may change
+        EXPECT_TRUE(settled(fit_with({99, 0.02, -0.1}, {1, 0.02, 0.1})));  // 1 - 49
         return fit_with({99, 0.02, 0.1}, {1, 0.02, 0.1});  // after what is in the model already
       },
       candidates);
@@ -67,7 +70,7 @@ TEST_F(Contest, WhatBothCouldBeIsLostNarrowly) {
   auto candidates = rivals(186);
   hold_contest(
       base_, noise_,
-      [](const auto&) {
+      [](const auto&, const auto&) {
         return fit_with({0.05, 0.4}, {0.05, 0.2});
       },
       candidates);
@@ -81,7 +84,7 @@ TEST_F(Contest, WhatIsNeededBesideTheWinnerIsThereAsWell) {
   auto candidates = rivals(186);
   hold_contest(
       base_, noise_,
-      [](const auto&) {
+      [](const auto&, const auto&) {
         return fit_with({0.2, 0.2}, {0.05, 0.1});  // chi-squares 16 and 16
       },
       candidates);
@@ -92,7 +95,7 @@ TEST_F(Contest, WhatIsNeededBesideTheWinnerIsThereAsWell) {
 TEST_F(Contest, WithoutACommonFitTheLikelihoodDecides) {
   auto candidates = rivals(186);
   hold_contest(
-      base_, noise_, [](const auto&) -> IceFit { throw InputError("no such ice"); }, candidates);
+      base_, noise_, [](const auto&, const auto&) -> IceFit { throw InputError("no such ice"); }, candidates);
   EXPECT_EQ(candidates[0].trial.suspect.effect, "scattering-anisotropy");
   EXPECT_FALSE(candidates[1].trial.lost);
   EXPECT_TRUE(lost_narrowly(candidates[1].trial));  // nothing tells it from the winner
