@@ -11,7 +11,7 @@ namespace {
 
 constexpr double close = 2;          // differences of -ln L, in units of their noise
 constexpr double undecided = 6;      // differences of chi-square
-constexpr double beyond_doubt = 25;  // likewise: later rounds move it by less
+constexpr double beyond_doubt = 25;  // likewise: not worth more rounds
 constexpr double needed = 9;         // chi-square of an effect that is there beside the other
 constexpr double held = 1e-3;  // width of a prior, in the parameter's scale, that leaves a band where it is
 
