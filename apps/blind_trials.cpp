@@ -5,8 +5,10 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <set>
+#include <optional>
+#include <string>
 
+#include "apps/blind_trial_rows.h"
 #include "apps/commands.h"
 #include "apps/common_options.h"
 #include "apps/flasher_runs_file.h"
@@ -14,8 +16,10 @@
 #include "apps/option_values.h"
 #include "apps/planned_output.h"
 #include "apps/progress_bar.h"
+#include "apps/row_journal.h"
 #include "apps/text_table.h"
 #include "data/base/error.h"
+#include "propagation/model_hash.h"
 #include "reco/diagnose/blind_trials.h"
 
 namespace floe {
@@ -26,6 +30,7 @@ struct BlindTrialsCommand {
   std::string runs;
   ModelRequest model;
   BlindTrialOptions options;
+  std::optional<std::string> rows;
   SimulationSettings run;
   OutputOptions output;
 };
@@ -35,6 +40,11 @@ struct Tally {
   std::map<std::string, int> wrong;  // what was named instead
 };
 
+// With its place where that is all that is wrong.
+std::string wrong_name(const BlindTrial& trial) {
+  return trial.named.effect == trial.hidden.effect ? trial.named.text : trial.named.effect;
+}
+
 std::map<std::string, Tally> tallies_of(const BlindTrials& trials) {
   std::map<std::string, Tally> tallies;
   for (const BlindTrial& trial : trials.trials) {
@@ -42,10 +52,10 @@ std::map<std::string, Tally> tallies_of(const BlindTrials& trials) {
     ++tally.trials;
     if (trial.right())
       ++tally.right;
-    else if (trial.named.empty())
+    else if (trial.named.effect.empty())
       ++tally.silent;
     else
-      ++tally.wrong[trial.named];
+      ++tally.wrong[wrong_name(trial)];
   }
   return tallies;
 }
@@ -61,12 +71,20 @@ std::string hidden_names(const FullTrial& trial) {
   return all_names(names);
 }
 
+// Of what was named with its place, and "unexplained".
+std::string verdict_of(const FullTrial& trial) {
+  std::vector<std::string> names;
+  for (const NamedInTrial& named : trial.named) names.push_back(named.text);
+  if (!trial.verdict.empty() && trial.verdict.back() == "unexplained") names.push_back("unexplained");
+  return all_names(names);
+}
+
 std::string full_trials(const BlindTrials& trials) {
   if (trials.full.empty()) return "";
   TextTable table({"hidden for a whole diagnosis", "verdict", "gap closed", ""});
   int right = 0, values = 0, within = 0;
   for (const FullTrial& trial : trials.full) {
-    table.add({hidden_names(trial), all_names(trial.verdict), fmt::format("{:.0f}%", 100 * trial.closed),
+    table.add({hidden_names(trial), verdict_of(trial), fmt::format("{:.0f}%", 100 * trial.closed),
                trial.right() ? "right" : "wrong"});
     right += trial.right();
     for (const FullTrial::Value& value : trial.values) {
@@ -125,35 +143,6 @@ Json power_json(const BlindTrials& trials) {
   return json;
 }
 
-Json trial_json(const BlindTrial& trial) {
-  Json values = Json::object();
-  for (const auto& [name, value] : trial.hidden.values) values[name] = value;
-  return {{"hidden", trial.hidden.effect},
-          {"hidden_text", trial.hidden.text},
-          {"hidden_values", values},
-          {"expected_significance", trial.hidden.significance},
-          {"p_value", trial.p_value},
-          {"named", trial.named},
-          {"named_text", trial.named_text},
-          {"group", trial.group},
-          {"significance", trial.significance},
-          {"found", trial.found},
-          {"errors", trial.errors},
-          {"right", trial.right()}};
-}
-
-Json full_json(const FullTrial& trial) {
-  Json json = {{"hidden", Json::array()},  {"outside", trial.outside}, {"verdict", trial.verdict},
-               {"groups", trial.groups},   {"values", Json::array()},  {"closed", trial.closed},
-               {"seconds", trial.seconds}, {"right", trial.right()}};
-  for (const HiddenEffect& hidden : trial.hidden)
-    json["hidden"].push_back({{"effect", hidden.effect}, {"text", hidden.text}});
-  for (const FullTrial::Value& value : trial.values)
-    json["values"].push_back(
-        {{"name", value.name}, {"hidden", value.hidden}, {"found", value.found}, {"error", value.error}});
-  return json;
-}
-
 // A run of many flashes has their light together.
 std::vector<FlasherRun> runs_of(const std::string& file) {
   std::vector<FlasherRun> runs;
@@ -169,6 +158,46 @@ std::vector<FlasherRun> runs_of(const std::string& file) {
   return runs;
 }
 
+// All that trials depend on.
+Json heading_of(const Model& base, const std::vector<FlasherRun>& runs, const BlindTrialOptions& options) {
+  Json flashers = Json::array();
+  for (const FlasherRun& run : runs)
+    flashers.push_back({run.module.string, run.module.dom, name_of(run.leds), run.orientation, run.wavelength,
+                        run.beam_width, run.pulse_width, run.photons});
+  return {{"journal", "floe blind-trials"},
+          {"version", FLOE_VERSION},
+          {"seed", options.seed},
+          {"trials", options.trials},
+          {"nothing", options.nothing},
+          {"full", {options.full, options.full_nothing, options.pairs, options.outside}},
+          {"least", options.least},
+          {"most", options.most},
+          {"alpha", options.alpha},
+          {"light", options.light.light},
+          {"oversize", options.oversize},
+          {"model", model_hash(base)},
+          {"runs", flashers}};
+}
+
+BlindTrials run_resumable(const BlindTrialsCommand& command, const Model& base,
+                          const std::vector<FlasherRun>& runs, const BlindTrialOptions& options) {
+  TrialRecord record;
+  std::unique_ptr<RowJournal> journal;
+  if (command.rows) {
+    journal = std::make_unique<RowJournal>(*command.rows, heading_of(base, runs, options),
+                                           RowJournal::Mismatch::error);
+    for (const Json& row : journal->rows())
+      if (row.contains("outside"))
+        record.full.push_back(full_trial_of(row));
+      else
+        record.trials.push_back(blind_trial_of(row));
+    record.keep_trial = [&](const BlindTrial& trial) { journal->append(to_json(trial)); };
+    record.keep_full = [&](const FullTrial& trial) { journal->append(to_json(trial)); };
+  }
+  ProgressBar bar(command.output.quiet);
+  return run_blind_trials(base, runs, options, bar.callback(), record);
+}
+
 void run_trials(const BlindTrialsCommand& command) {
   BlindTrialOptions options = command.options;
   options.seed = command.run.seed;
@@ -177,18 +206,14 @@ void run_trials(const BlindTrialsCommand& command) {
   PlannedOutput json(command.output.json);
   const Model base = load_model(command.model);
   const std::vector<FlasherRun> runs = runs_of(command.runs);
-  BlindTrials trials;
-  {
-    ProgressBar bar(command.output.quiet);
-    trials = run_blind_trials(base, runs, options, bar.callback());
-  }
+  const BlindTrials trials = run_resumable(command, base, runs, options);
   Json result = {
       {"version", FLOE_VERSION},   {"base", to_json(command.model)}, {"base_model", to_json(base)},
       {"runs", command.runs},      {"seed", options.seed},           {"alpha", options.alpha},
       {"seconds", trials.seconds}, {"trials", Json::array()},        {"power", power_json(trials)}};
-  for (const BlindTrial& trial : trials.trials) result["trials"].push_back(trial_json(trial));
+  for (const BlindTrial& trial : trials.trials) result["trials"].push_back(to_json(trial));
   result["full"] = Json::array();
-  for (const FullTrial& trial : trials.full) result["full"].push_back(full_json(trial));
+  for (const FullTrial& trial : trials.full) result["full"].push_back(to_json(trial));
   json.write(json_text(result));
   json.commit();
   if (!command.output.quiet)
@@ -201,7 +226,6 @@ void add_blind_trials(CLI::App& floe) {
   CLI::App& app = *floe.add_subcommand(
       "blind-trials", "Hide effects at random in simulated light and see whether the diagnosis names them");
   const auto command = std::make_shared<BlindTrialsCommand>();
-  command->options.light = {2, 1e3, 2e11};
   command->run.oversize = command->options.oversize;
   app.add_option("runs", command->runs,
                  "Flasher runs to simulate, as for floe simulate --flashers, without measured curves")
@@ -228,15 +252,19 @@ void add_blind_trials(CLI::App& floe) {
              "Expected significance of what is hidden, places counted, at most", command->options.most);
   add_number(app, "--alpha", "P", {1e-6, 0.5}, "Probability of naming anything when nothing is missing",
              command->options.alpha);
-  add_number(app, "--light", "RATIO", {0.1, 1000}, "Simulated light, in units of the data's",
-             command->options.light.light);
+  add_number(
+      app, "--light", "RATIO", {0.1, 1000},
+      "Simulated light of the survey, in units of the data's; whole diagnoses have that of floe diagnose",
+      command->options.light.light);
+  app.add_option("--rows", command->rows, "Keeps every trial; the same command goes on where it was stopped")
+      ->type_name("FILE.jsonl");
   add_simulation_options(app, command->run);
   add_output_options(app, command->output);
   app.footer(
       "Examples:\n"
       "  floe blind-trials runs.toml --trials 1 --nothing 5\n"
       "  floe blind-trials runs.toml --ice my-ice --least 3 --most 8 --json trials.json\n"
-      "  floe blind-trials runs.toml --full 5 --pairs 2 --outside 4\n"
+      "  floe blind-trials runs.toml --full 5 --pairs 2 --outside 4 --rows trials.jsonl\n"
       "A whole diagnosis takes as long as floe diagnose does.");
   app.callback([command] { run_trials(*command); });
 }

@@ -108,6 +108,7 @@ Json diagnosis_json(const Diagnosis& diagnosis, const DiagnoseCommand& command, 
                {"p_value", diagnosis.p_value},
                {"alpha", command.options.alpha},
                {"floor", command.options.floor},
+               {"p_of_rest", diagnosis.p_of_rest ? Json(*diagnosis.p_of_rest) : Json()},
                {"gap_before", diagnosis.gap_before},
                {"gap_after", diagnosis.gap_after},
                {"closed", diagnosis.closed()},
@@ -200,7 +201,6 @@ void add_diagnose(CLI::App& floe, const std::string& command_line) {
       "diagnose", "Find where an ice model and flasher data disagree, and which effect is missing");
   const auto command = std::make_shared<DiagnoseCommand>();
   command->command = command_line;
-  command->options.light = {2, 2e4, 2e11};
   command->run.oversize = command->options.oversize;
   app.add_option("data", command->data, flasher_data_description)->type_name("DATA")->required();
   app.add_option("-o,--output", command->folder, "New folder for the result")->type_name("DIR")->required();

@@ -29,8 +29,13 @@ RunRequest request_of(const FlasherRun& run, const RunSettings& settings, std::u
 class Trials {
  public:
   Trials(const Model& base, const std::vector<FlasherRun>& runs, const BlindTrialOptions& options,
-         const Progress& progress)
-      : base_(base), runs_(runs), options_(options), progress_(progress), random_(options.seed) {}
+         const Progress& progress, const TrialRecord& record)
+      : base_(base),
+        runs_(runs),
+        options_(options),
+        progress_(progress),
+        record_(record),
+        random_(options.seed) {}
 
   BlindTrials run() {
     FlasherData data = data_of(light_of(base_, data_stream));
@@ -60,12 +65,12 @@ class Trials {
     const std::vector<Full> full = plan_full(hidden, survey);
     // A whole diagnosis takes as long as many tests of scores.
     done_ = 0, all_ = static_cast<double>(hidden.size()) + per_full * static_cast<double>(full.size());
-    for (std::size_t t = 0; t < hidden.size(); ++t, ++done_) {
+    run_each(hidden.size(), 1, record_.trials, record_.keep_trial, result_.trials, [&](std::size_t t) {
       report(0, fmt::format("trial {} of {}", t + 1, hidden.size()));
-      result_.trials.push_back(trial(hidden[t], t, survey, tester));
-    }
-    for (std::size_t t = 0; t < full.size(); ++t, done_ += per_full)
-      result_.full.push_back(diagnosed(full[t], t, full.size(), survey));
+      return trial(hidden[t], t, survey, tester);
+    });
+    run_each(full.size(), per_full, record_.full, record_.keep_full, result_.full,
+             [&](std::size_t t) { return diagnosed(full[t], t, full.size(), survey); });
     return std::move(result_);
   }
 
@@ -83,6 +88,18 @@ class Trials {
     std::optional<FlasherData> outside;  // light with what no model has
   };
   static constexpr double per_full = 60;  // in fast trials
+
+  // Those that are known are taken as they are. `each`: of the progress, in fast trials.
+  template <typename Result, typename Run>
+  void run_each(std::size_t count, double each, const std::vector<Result>& known,
+                const std::function<void(const Result&)>& keep, std::vector<Result>& results,
+                const Run& run) {
+    for (std::size_t t = 0; t < count; ++t, done_ += each) {
+      results.push_back(t < known.size() ? known[t] : run(t));
+      if (t >= known.size() && keep) keep(results.back());
+    }
+  }
+
   // A diagnosis names what its scores say or what its fit does, each with half of the false alarms.
   double alpha_of_score() const { return options_.alpha / 2; }
 
@@ -195,7 +212,9 @@ class Trials {
         full.outside ? *full.outside
                      : data_of(light_of(full.model, full_stream + number * runs_.size(), &survey));
     DiagnosisOptions options;
+    const LightBudget light = options.light;
     static_cast<RunSettings&>(options) = options_;
+    options.light = light;
     options.alpha = options_.alpha, options.floor = options_.floor, options.draws = options_.draws;
     options.folds = std::min(options_.folds, static_cast<int>(runs_.size()));
     return full_trial(base_, full.hidden, full.outside.has_value(), data, options,
@@ -282,7 +301,7 @@ class Trials {
         Hidden hidden;
         hidden.parameters = fit_parameters(*place.suspect, amplitudes, base_);
         if (!reaches(place, hidden.parameters, amplitudes)) continue;
-        hidden.effect = {place.suspect->effect, text_of(*place.suspect), {}, wanted};
+        hidden.effect = {place.suspect->effect, text_of(*place.suspect), {}, wanted, place.suspect->place};
         for (const IceParameter& p : hidden.parameters) {
           hidden.numbers.push_back(p.start);
           hidden.effect.values.emplace_back(p.name, p.start);
@@ -318,14 +337,14 @@ class Trials {
     trial.p_value = test.p_value;
     if (test.effects.empty() || test.p_value >= alpha_of_score()) return trial;
     const EffectScore& first = test.effects.front();
-    trial.named = first.best.suspect.effect;
-    trial.named_text = text_of(first.best.suspect);
+    const Suspect& suspect = first.best.suspect;
+    trial.named = {suspect.effect, text_of(suspect), suspect.place, {}};
     trial.significance = sigmas_of(first.ln_p);
-    if (trial.named_text == hidden.effect.text && !first.best.suspect.place.count("depth"))
+    if (trial.named.text == hidden.effect.text && !suspect.place.count("depth"))
       tell_values(first.best, trial);
     for (const EffectScore& effect : test.effects)
       if (&effect == &first || is_inseparable(effect, first))
-        trial.group.push_back(effect.best.suspect.effect);
+        trial.named.group.push_back(effect.best.suspect.effect);
     return trial;
   }
 
@@ -342,6 +361,7 @@ class Trials {
   const std::vector<FlasherRun>& runs_;
   const BlindTrialOptions& options_;
   const Progress& progress_;
+  const TrialRecord& record_;
   std::mt19937_64 random_;
   BlindTrials result_;
   double done_ = 0, all_ = 1;  // in fast trials, for the progress bar
@@ -350,18 +370,18 @@ class Trials {
 }  // namespace
 
 bool BlindTrial::right() const {
-  if (hidden.effect.empty()) return named.empty();
-  return names(named, group, hidden.effect);
+  return hidden.effect.empty() ? named.effect.empty() : named.is(hidden);
 }
 
 BlindTrials run_blind_trials(const Model& base, const std::vector<FlasherRun>& runs,
-                             const BlindTrialOptions& options, const Progress& progress) {
+                             const BlindTrialOptions& options, const Progress& progress,
+                             const TrialRecord& record) {
   check(static_cast<const RunSettings&>(options));
   if (runs.empty()) throw UsageError("blind trials need at least one flasher run");
   if (!(options.least > 0 && options.most >= options.least))
     throw UsageError("significances must be positive, the smaller one first");
   const auto start = std::chrono::steady_clock::now();
-  BlindTrials result = Trials(base, runs, options, progress).run();
+  BlindTrials result = Trials(base, runs, options, progress, record).run();
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -17,7 +18,9 @@
 
 namespace floe {
 
+// Of RunSettings, `light` is that of the survey; whole diagnoses have their own.
 struct BlindTrialOptions : RunSettings {
+  BlindTrialOptions() { light = {2, 1e3, 2e11}; }
   int trials = 3;        // of each effect
   int nothing = 20;      // trials with nothing missing
   int full = 0;          // of the effects hidden, so many are hidden again for the whole diagnosis
@@ -37,9 +40,8 @@ struct BlindTrialOptions : RunSettings {
 struct BlindTrial {
   HiddenEffect hidden;
   double p_value = 1;
-  std::string named, named_text;   // the first in the ranking; empty when nothing was named
-  std::vector<std::string> group;  // that the data cannot tell from it, itself first
-  double significance = 0;         // of what was named
+  NamedInTrial named;       // the first in the ranking
+  double significance = 0;  // of what was named
   // Of effects that were named at their place, beside HiddenEffect::values; none of bands, whose depth and
   // width are told by a fit.
   std::vector<double> found, errors;
@@ -61,8 +63,18 @@ struct BlindTrials {
   double seconds = 0;
 };
 
+// What an earlier run with the same options has found of the same trials, from the first one on: these are
+// not run again. The others are handed out as soon as they end, in order.
+struct TrialRecord {
+  std::vector<BlindTrial> trials;
+  std::vector<FullTrial> full;
+  std::function<void(const BlindTrial&)> keep_trial;
+  std::function<void(const FullTrial&)> keep_full;
+};
+
 // `runs`: with photons and oversize, as flashers are simulated. Throws UsageError for options out of range.
 BlindTrials run_blind_trials(const Model& base, const std::vector<FlasherRun>& runs,
-                             const BlindTrialOptions& options, const Progress& progress = {});
+                             const BlindTrialOptions& options, const Progress& progress = {},
+                             const TrialRecord& record = {});
 
 }  // namespace floe

@@ -28,7 +28,9 @@ constexpr double light_of_first_round = 0.4;
 // Of fits to a part of the runs, in units of that: what they tell of the others is extrapolated, and so is
 // the noise of their simulations.
 constexpr double light_of_folds = 2.5;
-constexpr double hits_of_contest = 6e4;  // of each run, at least: rivals are alike
+// Rivals are alike. Of each run, at least so many hits, or as many as these times the brightest run's: with
+// dim data their own noise decides.
+constexpr double hits_of_contest = 6e4, light_of_contest = 3;
 constexpr double confirmed_share = 0.4;  // of the gain that a score promised, by a fit
 constexpr int rounds = 4, rounds_of_layers = 7, rounds_of_folds = 3, rounds_of_contest = 5;
 
@@ -68,11 +70,11 @@ class Diagnoser {
       const bool gap = look_at(accepted_.model(), step);
       DiagnosisStep& now = result_.steps.back();
       const bool added = gap && step < options_.most_effects && add_effect(now, step);
-      // A score that no fit to fresh light confirms is none.
-      if (step == 0)
-        result_.p_value = std::min(1.0, 2 * std::min(now.p_of_fit, added || !gap ? now.scores.p_value : 1.0));
+      if (step == 0) result_.p_value = std::min(1.0, 2 * std::min(now.p_of_fit, now.scores.p_value));
       if (added) continue;
-      unexplained = now.p_of_fit < options_.alpha / 2;
+      // Scores are valid whatever the slopes are: where no fit confirms the name, there is a gap without one.
+      // Beside names they see what noise the fits of these have left.
+      unexplained = step == 0 ? gap : now.p_of_fit < options_.alpha / 2;
       break;
     }
     finish(unexplained);
@@ -163,6 +165,7 @@ class Diagnoser {
     IceFitOptions options = fit_options(most_rounds);
     options.light.light *= light, options.light.least_hits *= light;
     options.pair_light = light_of_pairs / light;
+    options.least_pair_hits = enough_pair_hits;
     options.first_light = light_of_first_round / light;
     return fit_ice(base_, data, parameters, options, part());
   }
@@ -171,8 +174,15 @@ class Diagnoser {
                    const std::function<bool(const IceFit&)>& settled) {
     IceFitOptions options = fit_options(rounds_of_contest);
     options.settled = settled;
-    options.light.least_hits = std::max(options.light.least_hits, hits_of_contest);
+    options.light.least_hits =
+        std::max(options.light.least_hits, std::min(hits_of_contest, light_of_contest * brightest_run()));
     return fit_ice(base_, data_, parameters, options, part());
+  }
+
+  double brightest_run() const {
+    double most = 0;
+    for (const RunData& run : data_.runs) most = std::max(most, run.charge);
+    return most;
   }
 
   double neg_llh_of_all(const Model& model) const {
@@ -340,11 +350,8 @@ class Diagnoser {
         give_up(0, fmt::format("{} effects together leave a gap, and none of them names it", named));
     const bool found = !accepted_.empty();
     measure_gaps();
-    if (found && accepted_.empty()) {
-      // A score that no held-out light confirms is none.
-      result_.p_value = std::min(1.0, 2 * result_.steps.front().p_of_fit);
-      unexplained = result_.p_value < options_.alpha;
-    }
+    // A gap whose names were given up is there all the same.
+    if (found) unexplained = unexplained || accepted_.empty() || *result_.p_of_rest < options_.alpha / 2;
     result_.improved = accepted_.model();
     result_.effects = accepted_.effects();
     for (const NamedEffect& effect : result_.effects) result_.verdict.push_back(effect.suspect.effect);
@@ -376,10 +383,11 @@ class Diagnoser {
     result_.gaps = gaps_of(base_, data_, judge);
     for (const RunGap& run : result_.gaps) result_.gap_before += run.before;
     result_.gap_after = result_.gap_before;
+    if (accepted_.empty()) return;
     const double noise = 2 * judge.noise_of_differences();
     while (!accepted_.empty()) {
       measure_held_out(judge);
-      if (result_.gap_after <= result_.gap_before + noise) return;
+      if (result_.gap_after <= result_.gap_before + noise) break;
       give_up(accepted_.effects().size() - 1,
               fmt::format("runs that were held out fit worse with it (a gap of {:.1f} instead of {:.1f})",
                           result_.gap_after, result_.gap_before));
@@ -387,6 +395,21 @@ class Diagnoser {
       result_.gap_after = result_.gap_before;
       if (!accepted_.empty()) accepted_.take(fit(data_, accepted_.parameters(), rounds));
     }
+    result_.p_of_rest = p_of_fit(judge, accepted_.model());
+  }
+
+  // A look has hardly more light than the data, and its noise hides what this shows.
+  double p_of_fit(const ModelJudge& judge, const Model& model) const {
+    double neg_llh = 0, variance = 0;
+    ExpectedFit right;
+    for (std::size_t r = 0; r < data_.runs.size(); ++r) {
+      const ModelJudge::Fit fit = judge.judge(model, r);
+      neg_llh += fit.measured.neg_llh;
+      right.mean += fit.expected;
+      variance += fit.scatter * fit.scatter;
+    }
+    right.scatter = std::sqrt(variance);
+    return probability_of(neg_llh, right);
   }
 
   void measure_held_out(const ModelJudge& judge) {

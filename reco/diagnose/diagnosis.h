@@ -21,6 +21,7 @@
 namespace floe {
 
 struct DiagnosisOptions : RunSettings {
+  DiagnosisOptions() { light = {2, 2e4, 2e11}; }
   double alpha = 0.01;   // probability of naming anything when nothing is missing
   double floor = 0.005;  // changes of light smaller than this, relative, are not told from differences
                          // between programs
@@ -46,6 +47,9 @@ struct Diagnosis {
   std::vector<DiagnosisStep> steps;  // the base model's first
   std::vector<RunGap> gaps;          // held out
   double gap_before = 0, gap_after = 0;
+  // Of so bad a fit of the improved model to all runs, measured with the light of gaps; of the base model
+  // when everything that was added has been given up again. None: nothing was added.
+  std::optional<double> p_of_rest;
   std::vector<std::string> left_out;  // of the data, a sentence each
   std::vector<std::string> remarks;   // effects that were given up again
   Model improved;

@@ -19,23 +19,19 @@ void add_values(const HiddenEffect& hidden, const NamedEffect& named, std::vecto
 
 }  // namespace
 
-bool names(const std::string& named, const std::vector<std::string>& group, const std::string& effect) {
+bool NamedInTrial::is(const HiddenEffect& hidden) const {
   constexpr std::size_t largest_group = 3;
-  return named == effect ||
-         (group.size() <= largest_group && std::find(group.begin(), group.end(), effect) != group.end());
-}
-
-bool FullTrial::names(const HiddenEffect& effect, std::size_t place) const {
-  // The last of the verdict may be "unexplained", which has no group.
-  const std::vector<std::string> none;
-  return place < verdict.size() &&
-         floe::names(verdict[place], place < groups.size() ? groups[place] : none, effect.effect);
+  if (effect == hidden.effect) return is_same_place(place, hidden.place);
+  return group.size() <= largest_group && std::find(group.begin(), group.end(), hidden.effect) != group.end();
 }
 
 bool FullTrial::right() const {
   if (outside) return !verdict.empty() && verdict.back() == "unexplained";
-  if (hidden.size() == 1) return hidden.front().effect.empty() ? verdict.empty() : names(hidden.front(), 0);
-  return (names(hidden[0], 0) && names(hidden[1], 1)) || (names(hidden[0], 1) && names(hidden[1], 0));
+  if (hidden.size() == 1 && hidden.front().effect.empty()) return verdict.empty();
+  if (named.size() < hidden.size()) return false;
+  if (hidden.size() == 1) return named[0].is(hidden[0]);
+  return (named[0].is(hidden[0]) && named[1].is(hidden[1])) ||
+         (named[0].is(hidden[1]) && named[1].is(hidden[0]));
 }
 
 FullTrial full_trial(const Model& base, const std::vector<HiddenEffect>& hidden, bool outside,
@@ -46,11 +42,14 @@ FullTrial full_trial(const Model& base, const std::vector<HiddenEffect>& hidden,
   trial.outside = outside;
   trial.verdict = found.verdict;
   trial.closed = found.closed();
+  trial.remarks = found.remarks;
   trial.seconds = found.seconds;
   for (const NamedEffect& named : found.effects) {
-    trial.groups.push_back(named.group);
+    const Suspect& suspect = named.suspect;
+    trial.named.push_back({suspect.effect, text_of(suspect), suspect.place, named.group});
     for (const HiddenEffect& effect : hidden)
-      if (named.suspect.effect == effect.effect) add_values(effect, named, trial.values);
+      if (suspect.effect == effect.effect && is_same_place(suspect.place, effect.place))
+        add_values(effect, named, trial.values);
   }
   return trial;
 }

@@ -16,27 +16,35 @@ struct HiddenEffect {
   std::string effect, text;
   std::vector<std::pair<std::string, double>> values;  // names of parameters
   double significance = 0;                             // expected
+  Place place = {};
 };
 
-// Whether a name is that effect's, or its group, of at most three, has the effect: a name is worth nothing in
-// a larger one.
-bool names(const std::string& named, const std::vector<std::string>& group, const std::string& effect);
+// What was named, and what cannot be told from it.
+struct NamedInTrial {
+  std::string effect, text;  // as in HiddenEffect; empty: nothing was named
+  Place place;
+  std::vector<std::string> group;  // itself first
+
+  // Whether it is that effect, at the same place, or its group, of at most three, has the effect: a name is
+  // worth nothing in a larger one.
+  bool is(const HiddenEffect& hidden) const;
+};
 
 struct FullTrial {
-  std::vector<HiddenEffect> hidden;              // one; two of a pair
-  bool outside = false;                          // of the catalogue
-  std::vector<std::string> verdict;              // as in result.json
-  std::vector<std::vector<std::string>> groups;  // of each effect named, itself first
-  // Of hidden effects that were named, where both speak of the same parameter.
+  std::vector<HiddenEffect> hidden;  // one; two of a pair
+  bool outside = false;              // of the catalogue
+  std::vector<std::string> verdict;  // as in result.json
+  std::vector<NamedInTrial> named;
+  // Of hidden effects that were named at their place, where both speak of the same parameter.
   struct Value {
     std::string name;
     double hidden = 0, found = 0, error = 0;
   };
   std::vector<Value> values;
-  double closed = 0;  // of the held-out gap
+  double closed = 0;                 // of the held-out gap
+  std::vector<std::string> remarks;  // why names were given up
   double seconds = 0;
 
-  bool names(const HiddenEffect& effect, std::size_t place) const;
   // The first name is right; of a pair both names are, in any order; what is outside of the catalogue stays
   // unexplained.
   bool right() const;

@@ -112,7 +112,7 @@ class Surveyor {
 
   void measure_slopes(const RunRequest& request, const SimulatedRun& simulated, SurveyRun& run) {
     const double time_zero = run.nuisances.time_zero;
-    const PairPlan pairs{plan_.pair_reach, plan_.pair_light, plan_.one_sided, 1};
+    const PairPlan pairs{plan_.pair_reach, plan_.pair_light, plan_.least_pair_hits, plan_.one_sided, 1};
     const auto [light, propagated] = point_.light(request, simulated, run.bins, time_zero, pairs);
     survey_.photons += propagated;
     run.counts = {run.data.counts(run.bins), {light.folds[0].counts, light.folds[1].counts}};
@@ -127,7 +127,8 @@ class Surveyor {
       RunRequest other = request;
       other.stream += 2;
       const DisplacedStrings displaced =
-          displaced_strings(point_.model(), other, run.bins, time_zero, light, plan_.pair_light / 2);
+          displaced_strings(point_.model(), other, run.bins, time_zero, light,
+                            pairs.share(run.counts.simulated[0].sum() + run.counts.simulated[1].sum()) / 2);
       survey_.photons += displaced.propagated;
       for (std::size_t fold = 0; fold < 2; ++fold) slopes[fold].places.displacement = displaced.fold[fold];
     }

@@ -11,6 +11,7 @@
 #include "data/base/progress.h"
 #include "propagation/model.h"
 #include "reco/ice_fit/ice_parameter.h"
+#include "reco/ice_fit/ice_point.h"
 #include "reco/ice_fit/photon_draws.h"
 #include "reco/ice_fit/run_data.h"
 #include "reco/ice_fit/run_likelihood.h"
@@ -89,9 +90,10 @@ Eigen::VectorXd residual_of(const Survey& survey, const SurveyCounts& counts);
 struct SurveyPlan {
   const std::vector<IceParameter>& parameters;              // at their null values in the model
   double pair_reach = 1, pair_light = 0.25, one_sided = 4;  // see PairPlan
-  bool turns_by_pairs = false;                              // see IcePoint
-  std::uint64_t stream = 0;                                 // of each survey its own, counting from 0
-  bool places = true;                                       // strings and modules, too
+  double least_pair_hits = enough_pair_hits;
+  bool turns_by_pairs = false;  // see IcePoint
+  std::uint64_t stream = 0;     // of each survey its own, counting from 0
+  bool places = true;           // strings and modules, too
 };
 
 // `data`: screened; `look`: of the runs.

@@ -111,6 +111,12 @@ void add_bands(const SuspectPlan& plan, const char* effect, int first, std::vect
 
 }  // namespace
 
+bool is_same_place(const Place& a, const Place& b) {
+  const auto depth = a.find("depth");
+  if (depth == a.end() || !b.count("depth")) return a == b;
+  return std::abs(depth->second - b.at("depth")) < (a.at("width") + b.at("width")) / 2;
+}
+
 DepthRange layers_of(const FlasherDepths& flashers, std::size_t runs) {
   constexpr double beyond = 50;  // the outermost flashers [m]
   constexpr std::size_t most = 10;

@@ -19,10 +19,15 @@ struct BandGrid {
   int groups = 0;
 };
 
+// Of an effect that needs one: string, dom; depth and width of a band [m].
+using Place = std::map<std::string, double>;
+// Whether places of one effect are the same string or module, or bands that overlap.
+bool is_same_place(const Place& a, const Place& b);
+
 // A hypothesis: an effect, at a place where it needs one, with amplitudes that the data choose.
 struct Suspect {
   std::string effect;
-  std::map<std::string, double> place;  // string, dom; depth and width of a band [m]
+  Place place;
   // By amplitude: columns of the survey and their weights in it.
   std::vector<std::vector<std::pair<int, double>>> amplitudes;
   double largest = 1e9;                   // amplitude that makes sense

@@ -212,7 +212,8 @@ class Fit {
     const RunRequest request = this->request(r, 2, photons);
     const SimulatedRun simulated = simulate(point.model(), request, state.time_zero);
     auto [light, propagated] =
-        point.light(request, simulated, bins, state.time_zero, {.light = options_.pair_light});
+        point.light(request, simulated, bins, state.time_zero,
+                    {.light = options_.pair_light, .least_hits = options_.least_pair_hits});
     fit_.photons += simulated.propagated + propagated;
 
     const double hits = used_hits(simulated, run);

@@ -14,6 +14,10 @@ constexpr double weight_step = 1e-3;  // in the parameter's scale, for weights, 
 
 }  // namespace
 
+double PairPlan::share(double hits) const {
+  return std::max(light, std::min(1.0, least_hits / std::max(1.0, hits)));
+}
+
 IcePoint::IcePoint(const Model& base, const std::vector<IceParameter>& parameters,
                    std::vector<double> numbers, double wavelength, bool turns_by_pairs)
     : base_(base),
@@ -108,7 +112,8 @@ std::uint64_t IcePoint::add_pair(const RunRequest& request, const RunBins& bins,
   double down = std::max(-reach, p.low - number), up = std::min(reach, p.high - number);
   const Model below = moved_towards(parameter, down), above = moved_towards(parameter, up);
   RunRequest less = request;
-  const double share = plan.light * (down == 0 || up == 0 ? plan.one_sided : 1);
+  const double hits = light.folds[0].counts.sum() + light.folds[1].counts.sum();
+  const double share = plan.share(hits) * (down == 0 || up == 0 ? plan.one_sided : 1);
   less.photons *= share;
   less.stream += plan.stream;
   std::uint64_t propagated = 0;

@@ -13,14 +13,22 @@
 
 namespace floe {
 
+// Of each simulation of a pair. With half as many, slopes of a flow azimuth that was 12 standard deviations
+// off were mostly noise.
+inline constexpr double enough_pair_hits = 1.5e4;
+
 // How slopes are found that weights cannot give: from two simulations with the same random numbers.
 struct PairPlan {
-  double reach = 0.5;    // from the point, each way, in the parameter's scale, as far as its limits allow
-  double light = 1;      // of each simulation, in units of the run's own
-  double one_sided = 1;  // times that where a limit leaves one side only: that is where effects set in
+  double reach = 0.5;     // from the point, each way, in the parameter's scale, as far as its limits allow
+  double light = 1;       // of each simulation, in units of the run's own
+  double least_hits = 0;  // of each simulation, as far as the light of the run's own goes
+  double one_sided = 1;   // times that where a limit leaves one side only: that is where effects set in
   // 0: with the random numbers of the run itself; otherwise added to its stream, so that slopes are
   // independent of the run's counts.
   std::uint64_t stream = 0;
+
+  // Light of each simulation, in units of a run's own that has so many hits.
+  double share(double hits) const;
 };
 
 class IcePoint {

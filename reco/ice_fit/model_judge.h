@@ -25,10 +25,10 @@ class ModelJudge {
 
   // -ln L of a run at its best brightness and time zero.
   RunMeasurement measure(const Model& model, std::size_t run) const;
-  // The same, and what it would be on average if the model were true.
+  // The same, and what it would be if the model were true: mean and standard deviation.
   struct Fit {
     RunMeasurement measured;
-    double expected = 0;  // -ln L
+    double expected = 0, scatter = 0;  // -ln L
   };
   Fit judge(const Model& model, std::size_t run) const;
   // Standard deviation of the difference of -ln L, over all runs, of models that fit equally well: what their

@@ -54,6 +54,8 @@ TEST_F(Diagnose, NamesWhatWasHidden) {
   EXPECT_GT(found["gap_before"].get<double>(), 10);
   EXPECT_GT(found["closed"].get<double>(), 0.5);
   EXPECT_EQ(found["gaps"].size(), 2u);
+  EXPECT_GT(found["p_of_rest"].get<double>(), 0.005);
+  EXPECT_NE(found["verdict"].back(), "unexplained");
 
   EXPECT_FALSE(found["where"].empty());
   EXPECT_NE(text_of("found/report.html").find("Missing: absorption-anisotropy"), std::string::npos);
@@ -68,6 +70,7 @@ TEST_F(Diagnose, IsSilentWhereNothingIsMissing) {
   EXPECT_TRUE(found["effects"].empty());
   EXPECT_GT(found["p_value"].get<double>(), 0.01);
   EXPECT_EQ(found["gap_before"], found["gap_after"]);
+  EXPECT_TRUE(found["p_of_rest"].is_null());
   EXPECT_EQ(hash_of("found/improved-ice"), found["base_model"]["ice"]["hash"]);
   EXPECT_NE(text_of("found/report.html").find("Nothing is missing"), std::string::npos);
 }
@@ -75,20 +78,22 @@ TEST_F(Diagnose, IsSilentWhereNothingIsMissing) {
 TEST_F(Diagnose, IsPutToTheTestByBlindTrials) {
   write_bytes(folder_.path() / "runs.toml",
               "[defaults]\nphotons = 1e8\n[[run]]\nmodule = [36, 20]\n[[run]]\nmodule = [45, 40]\n");
-  const Outcome outcome = floe(
-      "blind-trials runs.toml --trials 1 --nothing 2 --least 8 --most 15 --seed 3 --full-nothing 1 --json "
-      "trials.json");
+  const std::string command =
+      "blind-trials runs.toml --trials 1 --nothing 2 --least 8 --most 15 --seed 3 --full-nothing 1 --rows "
+      "rows.jsonl --json ";
+  const Outcome outcome = floe(command + "trials.json");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("Right name or group: "), std::string::npos);
   int hidden = 0, right = 0;
   const Json found = Json::parse(text_of("trials.json"));
   for (const Json& trial : found["trials"]) {
-    if (trial["hidden"] == "") {
-      EXPECT_EQ(trial["named"], "");
+    const Json& secret = trial["hidden"];
+    if (secret["effect"] == "") {
+      EXPECT_EQ(trial["named"]["effect"], "");
       continue;
     }
-    EXPECT_GE(trial["expected_significance"].get<double>(), 8);
-    EXPECT_FALSE(trial["hidden_values"].empty());
+    EXPECT_GE(secret["expected_significance"].get<double>(), 8);
+    EXPECT_FALSE(secret["values"].empty());
     ++hidden, right += trial["right"].get<bool>();
   }
   EXPECT_GE(hidden, 4);
@@ -98,6 +103,16 @@ TEST_F(Diagnose, IsPutToTheTestByBlindTrials) {
   EXPECT_TRUE(found["full"][0]["right"]);
   EXPECT_GE(right, hidden / 2.0) << outcome.out;
   EXPECT_EQ(floe("blind-trials runs.toml --least 5 --most 4").code, 2);
+
+  // The same command again takes what it has kept, and another one does not.
+  const std::string rows = text_of("rows.jsonl");
+  ASSERT_EQ(floe(command + "again.json").code, 0);
+  EXPECT_EQ(text_of("rows.jsonl"), rows);
+  const Json again = Json::parse(text_of("again.json"));
+  EXPECT_EQ(again["trials"], found["trials"]);
+  EXPECT_EQ(again["full"], found["full"]);
+  expect_error(floe(command + "other.json --alpha 0.02"), 2,
+               "rows.jsonl: found rows of a run with alpha 0.01");
 }
 
 TEST_F(Diagnose, SaysWhatIsWrongWithWhatItIsGiven) {

@@ -11,6 +11,7 @@
 #include "reco/diagnose/score_test.h"
 #include "reco/diagnose/separation.h"
 #include "reco/diagnose/suspects.h"
+#include "reco/ice_fit/ice_fit.h"
 #include "reco/ice_fit/ice_point.h"
 #include "reco/ice_fit/model_judge.h"
 
@@ -97,6 +98,35 @@ TEST_F(OfOneFlasher, DelaysMoveSlopesWithTheirLight) {
     EXPECT_LT((before.counts - after.counts).lpNorm<1>(), 1e-3 * before.counts.sum());
     EXPECT_LT((before.slopes - after.slopes).lpNorm<1>(), 1e-2 * before.slopes.lpNorm<1>());
   }
+}
+
+// A question is put when slopes of two rounds are gathered, and an answer ends the fit there.
+TEST_F(OfOneFlasher, AFitEndsWhenItsQuestionIsSettled) {
+  IceParameter scale = effect_parameter("absorption-scale", model_);
+  scale.start = 1.3;
+  scale.scale = 0.05;  // too short a way for four rounds
+  IceFitOptions options;
+  static_cast<RunSettings&>(options) = settings_;
+  options.most_rounds = 4;
+  options.judged = false;
+  std::vector<double> asked;
+  const auto fitted = [&](bool answer) {
+    asked.clear();
+    options.settled = [&](const IceFit& fit) {
+      asked.push_back(fit.numbers[0]);
+      return answer;
+    };
+    return fit_ice(model_, data_, {scale}, options);
+  };
+  const IceFit whole = fitted(false);
+  EXPECT_EQ(whole.rounds, 4);
+  ASSERT_EQ(asked.size(), 1u);  // nobody is asked after the last round
+  EXPECT_LT(whole.numbers[0], asked[0]);
+  const double after_three = asked[0];
+  const IceFit ended = fitted(true);
+  EXPECT_EQ(ended.rounds, 3);
+  EXPECT_EQ(ended.numbers[0], after_three);
+  EXPECT_FALSE(ended.converged);
 }
 
 class ASurvey : public OfOneFlasher {

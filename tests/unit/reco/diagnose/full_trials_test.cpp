@@ -16,41 +16,67 @@ HiddenEffect hidden(const std::string& effect) {
   return {effect, effect, {}, 5};
 }
 
+NamedInTrial named(const std::string& effect, const std::vector<std::string>& others = {},
+                   const Place& place = {}) {
+  NamedInTrial result{effect, effect, place, {effect}};
+  result.group.insert(result.group.end(), others.begin(), others.end());
+  return result;
+}
+
+FullTrial trial_of(const std::vector<HiddenEffect>& hidden, const std::vector<NamedInTrial>& names,
+                   bool unexplained = false) {
+  FullTrial trial;
+  trial.hidden = hidden;
+  trial.named = names;
+  for (const NamedInTrial& name : names) trial.verdict.push_back(name.effect);
+  if (unexplained) trial.verdict.emplace_back("unexplained");
+  return trial;
+}
+
 TEST(FullTrial, IsRightByNameOrSmallGroup) {
-  FullTrial trial{{hidden("tilt")}, false, {"tilt"}, {{"tilt"}}, {}, 1, 0};
-  EXPECT_TRUE(trial.right());
-  trial.verdict = {"noise"}, trial.groups = {{"noise", "tilt"}};
-  EXPECT_TRUE(trial.right());
-  trial.groups = {{"noise", "tilt", "hole-ice", "grains"}};
-  EXPECT_FALSE(trial.right());
-  trial.verdict = {"noise", "tilt"}, trial.groups = {{"noise"}, {"tilt"}};
-  EXPECT_FALSE(trial.right());
-  trial.verdict = {}, trial.groups = {};
-  EXPECT_FALSE(trial.right());
+  const std::vector<HiddenEffect> tilt{hidden("tilt")};
+  EXPECT_TRUE(trial_of(tilt, {named("tilt")}).right());
+  EXPECT_TRUE(trial_of(tilt, {named("tilt")}, true).right());
+  EXPECT_TRUE(trial_of(tilt, {named("noise", {"tilt"})}).right());
+  EXPECT_FALSE(trial_of(tilt, {named("noise", {"tilt", "hole-ice", "grains"})}).right());
+  EXPECT_FALSE(trial_of(tilt, {named("noise"), named("tilt")}).right());
+  EXPECT_FALSE(trial_of(tilt, {}).right());
+  EXPECT_FALSE(trial_of(tilt, {}, true).right());
+}
+
+TEST(FullTrial, IsWrongAtAnotherPlace) {
+  HiddenEffect late = hidden("time-offset"), band = hidden("absorption-layer");
+  late.place = {{"string", 36}};
+  EXPECT_TRUE(trial_of({late}, {named("time-offset", {}, {{"string", 36}})}).right());
+  EXPECT_FALSE(trial_of({late}, {named("time-offset", {}, {{"string", 37}})}).right());
+  band.place = {{"depth", 1800}, {"width", 40}};
+  EXPECT_TRUE(trial_of({band}, {named("absorption-layer", {}, {{"depth", 1825}, {"width", 20}})}).right());
+  EXPECT_FALSE(trial_of({band}, {named("absorption-layer", {}, {{"depth", 1835}, {"width", 20}})}).right());
 }
 
 TEST(FullTrial, OfNothingIsRightWhenSilent) {
-  FullTrial trial{{hidden("")}, false, {}, {}, {}, 0, 0};
-  EXPECT_TRUE(trial.right());
-  trial.verdict = {"unexplained"};
-  EXPECT_FALSE(trial.right());
+  EXPECT_TRUE(trial_of({hidden("")}, {}).right());
+  EXPECT_FALSE(trial_of({hidden("")}, {}, true).right());
+  EXPECT_FALSE(trial_of({hidden("")}, {named("tilt")}).right());
 }
 
 TEST(FullTrial, OfAPairNeedsBothNames) {
-  FullTrial trial{
-      {hidden("tilt"), hidden("noise")}, false, {"noise", "tilt"}, {{"noise"}, {"tilt"}}, {}, 1, 0};
-  EXPECT_TRUE(trial.right());
-  trial.verdict = {"tilt"}, trial.groups = {{"tilt"}};
-  EXPECT_FALSE(trial.right());
+  const std::vector<HiddenEffect> pair{hidden("tilt"), hidden("noise")};
+  EXPECT_TRUE(trial_of(pair, {named("noise"), named("tilt")}).right());
+  EXPECT_FALSE(trial_of(pair, {named("tilt")}).right());
+  EXPECT_FALSE(trial_of(pair, {named("tilt"), named("tilt")}).right());
 }
 
 TEST(FullTrial, OutsideOfTheCatalogueStaysUnexplained) {
-  FullTrial trial{{hidden("glow")}, true, {"unexplained"}, {}, {}, 0, 0};
-  EXPECT_TRUE(trial.right());
-  trial.verdict = {"tilt", "unexplained"}, trial.groups = {{"tilt"}};
-  EXPECT_TRUE(trial.right());  // named too much, but said that something remains
-  trial.verdict = {"tilt"};
-  EXPECT_FALSE(trial.right());
+  const auto outside = [](const std::vector<NamedInTrial>& names, bool unexplained) {
+    FullTrial trial = trial_of({hidden("glow")}, names, unexplained);
+    trial.outside = true;
+    return trial.right();
+  };
+  EXPECT_TRUE(outside({}, true));
+  EXPECT_TRUE(outside({named("tilt")}, true));  // named too much, but said that something remains
+  EXPECT_FALSE(outside({named("tilt")}, false));
+  EXPECT_FALSE(outside({}, false));
 }
 
 class Outside : public ::testing::Test {

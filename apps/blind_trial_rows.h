@@ -1,0 +1,15 @@
+// Blind trials as JSON: what the result file says of each, and the rows of a run that can be resumed.
+#pragma once
+
+#include "apps/planned_output.h"
+#include "reco/diagnose/blind_trials.h"
+
+namespace floe {
+
+Json to_json(const BlindTrial& trial);
+Json to_json(const FullTrial& trial);
+// Throw nlohmann's exceptions for what is no such row.
+BlindTrial blind_trial_of(const Json& json);
+FullTrial full_trial_of(const Json& json);
+
+}  // namespace floe
