@@ -40,11 +40,6 @@ struct Tally {
   std::map<std::string, int> wrong;  // what was named instead
 };
 
-// With its place where that is all that is wrong.
-std::string wrong_name(const BlindTrial& trial) {
-  return trial.named.effect == trial.hidden.effect ? trial.named.text : trial.named.effect;
-}
-
 std::map<std::string, Tally> tallies_of(const BlindTrials& trials) {
   std::map<std::string, Tally> tallies;
   for (const BlindTrial& trial : trials.trials) {
@@ -55,7 +50,7 @@ std::map<std::string, Tally> tallies_of(const BlindTrials& trials) {
     else if (trial.named.effect.empty())
       ++tally.silent;
     else
-      ++tally.wrong[wrong_name(trial)];
+      ++tally.wrong[trial.named.effect];
   }
   return tallies;
 }
@@ -82,17 +77,21 @@ std::string verdict_of(const FullTrial& trial) {
 std::string full_trials(const BlindTrials& trials) {
   if (trials.full.empty()) return "";
   TextTable table({"hidden for a whole diagnosis", "verdict", "gap closed", ""});
-  int right = 0, values = 0, within = 0;
+  int right = 0, elsewhere = 0, values = 0, within = 0;
   for (const FullTrial& trial : trials.full) {
     table.add({hidden_names(trial), verdict_of(trial), fmt::format("{:.0f}%", 100 * trial.closed),
-               trial.right() ? "right" : "wrong"});
+               !trial.right()      ? "wrong"
+               : trial.elsewhere() ? "right, elsewhere"
+                                   : "right"});
     right += trial.right();
+    elsewhere += trial.right() && trial.elsewhere();
     for (const FullTrial::Value& value : trial.values) {
       ++values;
       within += std::abs(value.found - value.hidden) < 2 * value.error;
     }
   }
-  std::string text = table.str() + fmt::format("Right: {} of {}.\n", right, trials.full.size());
+  std::string text = table.str() + fmt::format("Right: {} of {}, {} of them at another place.\n", right,
+                                               trials.full.size(), elsewhere);
   if (values > 0) text += fmt::format("Fitted values within two errors: {} of {}.\n", within, values);
   return text;
 }

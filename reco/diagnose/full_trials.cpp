@@ -21,8 +21,12 @@ void add_values(const HiddenEffect& hidden, const NamedEffect& named, std::vecto
 
 bool NamedInTrial::is(const HiddenEffect& hidden) const {
   constexpr std::size_t largest_group = 3;
-  if (effect == hidden.effect) return is_same_place(place, hidden.place);
-  return group.size() <= largest_group && std::find(group.begin(), group.end(), hidden.effect) != group.end();
+  return effect == hidden.effect || (group.size() <= largest_group &&
+                                     std::find(group.begin(), group.end(), hidden.effect) != group.end());
+}
+
+bool NamedInTrial::is_elsewhere(const HiddenEffect& hidden) const {
+  return effect == hidden.effect && !is_same_place(place, hidden.place);
 }
 
 bool FullTrial::right() const {
@@ -32,6 +36,13 @@ bool FullTrial::right() const {
   if (hidden.size() == 1) return named[0].is(hidden[0]);
   return (named[0].is(hidden[0]) && named[1].is(hidden[1])) ||
          (named[0].is(hidden[1]) && named[1].is(hidden[0]));
+}
+
+bool FullTrial::elsewhere() const {
+  return std::any_of(named.begin(), named.end(), [&](const NamedInTrial& name) {
+    return std::any_of(hidden.begin(), hidden.end(),
+                       [&](const HiddenEffect& effect) { return name.is_elsewhere(effect); });
+  });
 }
 
 FullTrial full_trial(const Model& base, const std::vector<HiddenEffect>& hidden, bool outside,

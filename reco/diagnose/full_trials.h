@@ -25,9 +25,11 @@ struct NamedInTrial {
   Place place;
   std::vector<std::string> group;  // itself first
 
-  // Whether it is that effect, at the same place, or its group, of at most three, has the effect: a name is
-  // worth nothing in a larger one.
+  // Whether it is that effect, or its group, of at most three, has the effect: a name is worth nothing in a
+  // larger one.
   bool is(const HiddenEffect& hidden) const;
+  // The same effect, but of another string or module, or in a band apart.
+  bool is_elsewhere(const HiddenEffect& hidden) const;
 };
 
 struct FullTrial {
@@ -48,6 +50,7 @@ struct FullTrial {
   // The first name is right; of a pair both names are, in any order; what is outside of the catalogue stays
   // unexplained.
   bool right() const;
+  bool elsewhere() const;  // whether a right name is of a wrong place
 };
 
 FullTrial full_trial(const Model& base, const std::vector<HiddenEffect>& hidden, bool outside,

@@ -44,14 +44,19 @@ TEST(FullTrial, IsRightByNameOrSmallGroup) {
   EXPECT_FALSE(trial_of(tilt, {}, true).right());
 }
 
-TEST(FullTrial, IsWrongAtAnotherPlace) {
+TEST(FullTrial, SaysWhenTheNameIsOfAnotherPlace) {
   HiddenEffect late = hidden("time-offset"), band = hidden("absorption-layer");
   late.place = {{"string", 36}};
-  EXPECT_TRUE(trial_of({late}, {named("time-offset", {}, {{"string", 36}})}).right());
-  EXPECT_FALSE(trial_of({late}, {named("time-offset", {}, {{"string", 37}})}).right());
+  EXPECT_FALSE(trial_of({late}, {named("time-offset", {}, {{"string", 36}})}).elsewhere());
+  EXPECT_FALSE(trial_of({late}, {named("noise", {"time-offset"})}).elsewhere());
+  const FullTrial wrong = trial_of({late}, {named("time-offset", {}, {{"string", 37}})});
+  EXPECT_TRUE(wrong.right());
+  EXPECT_TRUE(wrong.elsewhere());
   band.place = {{"depth", 1800}, {"width", 40}};
-  EXPECT_TRUE(trial_of({band}, {named("absorption-layer", {}, {{"depth", 1825}, {"width", 20}})}).right());
-  EXPECT_FALSE(trial_of({band}, {named("absorption-layer", {}, {{"depth", 1835}, {"width", 20}})}).right());
+  EXPECT_FALSE(
+      trial_of({band}, {named("absorption-layer", {}, {{"depth", 1825}, {"width", 20}})}).elsewhere());
+  EXPECT_TRUE(
+      trial_of({band}, {named("absorption-layer", {}, {{"depth", 1835}, {"width", 20}})}).elsewhere());
 }
 
 TEST(FullTrial, OfNothingIsRightWhenSilent) {
