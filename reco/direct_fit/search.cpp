@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <tuple>
 
 #include "reco/direct_fit/arrival_bins.h"
 #include "reco/direct_fit/calibration_stages.h"
@@ -25,7 +26,9 @@ constexpr std::size_t most_starts = 3;
 constexpr double same_place = 8, same_direction = 25 * degree;  // [m]
 // A minimum so much worse in -ln L, by this many errors as well, is left behind.
 constexpr double hopeless = 8, hopeless_errors = 3;
-constexpr int contest_parts = 4;  // independent simulations of each minimum
+constexpr PhotonNeed first_contest{3, 2e5, 1e6};
+constexpr double slack_of_first_contest = 0.5;  // of the best -ln L: not all ends have settled
+constexpr int contest_parts = 4;                // independent simulations of each minimum
 constexpr std::uint64_t contest_stream = std::uint64_t{1} << 41;
 
 std::string words(const CascadeParameters& c) {
@@ -230,6 +233,30 @@ Search::End Search::from_scratch(const PointSeed& point) {
   return from_starts(starts);
 }
 
+std::vector<Search::Minimum> Search::other_way(std::vector<Minimum> minima, const Stage& coarse) {
+  const LightCentre& best = minima.front().end.light;
+  const LightCentre other = turned_round(best, light_ahead(ice_, best.position.z()));
+  const bool known = std::any_of(minima.begin(), minima.end(), [&](const Minimum& minimum) {
+    return minimum.end.light.direction.dot(other.direction) > std::cos(other_direction);
+  });
+  if (known) return minima;
+  const auto before = std::tuple(stream_, draws_, contests_);
+  const std::size_t simulations = simulations_.size(), rounds = result_.rounds.size();
+  const RoundEnd end = settle(other, coarse, most_coarse_rounds, false);
+  std::vector<RoundEnd> ends;
+  for (const Minimum& minimum : minima) ends.push_back(minimum.end);
+  ends.push_back(end);
+  std::vector<Minimum> all = contest(ends, first_contest, slack_of_first_contest);
+  const bool stays = std::any_of(all.begin(), all.end(), [&](const Minimum& minimum) {
+    return minimum.end.light.position == end.light.position;
+  });
+  if (stays) return all;
+  std::tie(stream_, draws_, contests_) = before;
+  simulations_.resize(simulations);
+  result_.rounds.resize(rounds);
+  return minima;
+}
+
 std::vector<Search::Minimum> Search::around_only_string(std::vector<Minimum> minima) {
   constexpr int turns = 6;
   constexpr std::size_t most_around_string = 3;
@@ -258,7 +285,7 @@ Search::End Search::from_starts(std::span<const LightCentre> starts) {
                      photons_for(cascade_of(starts.front(), options_.kind), oversize, {1, 4e5, 2e6})};
   std::vector<RoundEnd> ends;
   for (const LightCentre& start : starts) ends.push_back(settle(start, coarse, most_coarse_rounds, false));
-  std::vector<Minimum> minima = contest(ends, {3, 2e5, 1e6}, 0.5);
+  std::vector<Minimum> minima = other_way(contest(ends, first_contest, slack_of_first_contest), coarse);
 
   ends.clear();
   for (const Minimum& minimum : minima)

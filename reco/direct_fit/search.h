@@ -110,6 +110,9 @@ class Search {
   // all but the first `most`.
   std::vector<Minimum> contest(std::span<const RoundEnd> ends, const PhotonNeed& need, double slack,
                                std::size_t most = 2);
+  // Beside these, where the best would be if it went the other way: scattered light tells where its middle is
+  // sooner than from which side it came. Leaves no trace but its costs where that leads nowhere.
+  std::vector<Minimum> other_way(std::vector<Minimum> minima, const Stage& coarse);
   // Beside these, where the best would be at other azimuths about the only string with light, or mirrored in
   // the plane through the two, if there is one.
   std::vector<Minimum> around_only_string(std::vector<Minimum> minima);

@@ -140,6 +140,18 @@ SeedCandidate best_time(const EventData& data, const LightSample& sample, const 
 
 }  // namespace
 
+double light_ahead(const MeanIce& ice, double z) {
+  constexpr double near = 20, share = 0.35;  // [m], of the scattering length
+  return share * ice.between(z - near, z + near).scattering;
+}
+
+LightCentre turned_round(const LightCentre& light, double ahead) {
+  LightCentre other = light;
+  other.direction.head<2>() *= -1;
+  other.position += ahead * (light.direction - other.direction);
+  return other;
+}
+
 PointSeed find_point(const EventData& data, const MeanIce& ice) {
   const Vec3 core = core_of(data);
   double parameters[4] = {core.x(), core.y(), core.z(), log_brightness(data, ice, core)};
@@ -170,8 +182,7 @@ std::vector<SeedCandidate> scan_directions(ExpectationModel& light, const EventD
                                            const PointSeed& point, const ScanOptions& options,
                                            const std::function<void(double)>& progress) {
   const auto directions = even_directions(options.directions);
-  // Scattered light of a cascade looks as if it came from a place ahead of it.
-  const double ahead = 0.35 * ice.between(point.position.z() - 20, point.position.z() + 20).scattering;
+  const double ahead = light_ahead(ice, point.position.z());
   CascadeParameters pilot;
   pilot.energy = first_energy;
   double log_light = light_centre(pilot, options.kind).log_light;

@@ -21,6 +21,12 @@ struct PointSeed {
 // quantile of the first hits' times less the time of flight of direct light.
 PointSeed find_point(const EventData& data, const MeanIce& ice);
 
+// How far ahead of a cascade at height z [m] the light that is scattered seems to come from [m].
+double light_ahead(const MeanIce& ice, double z);
+// A cascade that went the opposite way horizontally, where light that is scattered so far `ahead` [m] seems
+// to come from the same place.
+LightCentre turned_round(const LightCentre& light, double ahead);
+
 // A direction tried from the point, and how well it did with time and brightness at their best.
 struct SeedCandidate {
   LightCentre light;

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "data/base/error.h"
+#include "reco/direct_fit/seed.h"
 #include "reco/event_data.h"
 #include "tests/unit/reco/toy_light.h"
 
@@ -51,6 +52,18 @@ TEST(CascadeFit, FindsToyCascadesFromHitsAlone) {
 }
 
 // Seen in the study: 208 photoelectrons from dust, "353 PeV +- 865 PeV" instead of 100 TeV.
+// Light seems to come from the same place, at the same depth and zenith angle.
+TEST(CascadeFit, TriesTheOppositeWay) {
+  const LightCentre light{{10, -20, 30}, 5, Vec3(1, 2, -2) / 3, 7};
+  const LightCentre other = turned_round(light, 12);
+  EXPECT_TRUE(other.direction.isApprox(Vec3(-1, -2, -2) / 3));
+  EXPECT_TRUE((other.position + 12 * other.direction).isApprox(light.position + 12 * light.direction));
+  EXPECT_EQ(other.position.z(), light.position.z());
+  EXPECT_EQ(other.time, light.time);
+  EXPECT_EQ(other.log_light, light.log_light);
+  EXPECT_TRUE(turned_round(other, 12).position.isApprox(light.position));
+}
+
 TEST(CascadeFit, HasAnEnergyWhenItsErrorIsSmaller) {
   Matrix7 covariance = Matrix7::Identity();
   covariance(6, 6) = 90.0 * 90.0;
