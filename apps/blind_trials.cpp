@@ -165,6 +165,7 @@ Json heading_of(const Model& base, const std::vector<FlasherRun>& runs, const Bl
                         run.beam_width, run.pulse_width, run.photons});
   return {{"journal", "floe blind-trials"},
           {"version", FLOE_VERSION},
+          {"diagnosis", diagnosis_revision},
           {"seed", options.seed},
           {"trials", options.trials},
           {"nothing", options.nothing},

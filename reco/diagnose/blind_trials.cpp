@@ -13,6 +13,7 @@
 #include "reco/diagnose/goodness.h"
 #include "reco/diagnose/outside_effects.h"
 #include "reco/diagnose/score_test.h"
+#include "reco/diagnose/score_values.h"
 
 namespace floe {
 
@@ -20,7 +21,8 @@ namespace {
 
 // Far from the streams of surveys.
 constexpr std::uint64_t data_stream = std::uint64_t{1} << 46, trial_stream = std::uint64_t{1} << 47,
-                        full_stream = std::uint64_t{1} << 48, outside_stream = std::uint64_t{1} << 49;
+                        full_stream = std::uint64_t{1} << 48, outside_stream = std::uint64_t{1} << 49,
+                        value_stream = std::uint64_t{1} << 50;
 
 RunRequest request_of(const FlasherRun& run, const RunSettings& settings, std::uint64_t stream) {
   return {run, run.photons, settings.oversize, settings.seed, stream, settings.threads};
@@ -120,6 +122,23 @@ class Trials {
     }
     return light;
   }
+  // As much light of each run as the survey has.
+  LightInBins light_in_bins(const Model& model, std::uint64_t stream, const Survey& survey) const {
+    LightInBins light;
+    for (std::size_t r = 0; r < runs_.size(); ++r) {
+      RunRequest request = request_of(runs_[r], options_, stream + r);
+      request.photons = survey.runs[r].photons;
+      request.noise = noise_window(survey.runs[r].data, request.photons);
+      light.push_back(hits_in_bins(simulate_run(model, request).hits, survey.runs[r].bins));
+    }
+    return light;
+  }
+  static Eigen::VectorXd hits_in_bins(const std::vector<SimulatedHit>& hits, const RunBins& bins) {
+    Eigen::VectorXd counts = Eigen::VectorXd::Zero(bins.size());
+    for (const SimulatedHit& hit : hits)
+      if (const int bin = bins.bin(hit.module, hit.time); bin >= 0) counts(bin) += 1;
+    return counts;
+  }
 
   FlasherData data_of(const Light& light) const {
     std::vector<Event> events;
@@ -136,11 +155,8 @@ class Trials {
 
   static SurveyCounts counts_of(const Light& light, const Survey& survey) {
     SurveyCounts counts = measured_counts(survey);
-    for (std::size_t r = 0; r < survey.runs.size(); ++r) {
-      counts[r].data.setZero();
-      for (const SimulatedHit& hit : light[r])
-        if (const int bin = survey.runs[r].bins.bin(hit.module, hit.time); bin >= 0) counts[r].data(bin) += 1;
-    }
+    for (std::size_t r = 0; r < survey.runs.size(); ++r)
+      counts[r].data = hits_in_bins(light[r], survey.runs[r].bins);
     return counts;
   }
 
@@ -341,20 +357,35 @@ class Trials {
     trial.named = {suspect.effect, text_of(suspect), suspect.place, {}};
     trial.significance = sigmas_of(first.ln_p);
     if (trial.named.text == hidden.effect.text && !suspect.place.count("depth"))
-      tell_values(first.best, trial);
+      tell_values(first.best, counts, number, survey, tester, trial);
     for (const EffectScore& effect : test.effects)
       if (&effect == &first || is_inseparable(effect, first))
         trial.named.group.push_back(effect.best.suspect.effect);
     return trial;
   }
 
-  void tell_values(const Score& score, BlindTrial& trial) const {
+  void tell_values(const Score& score, const SurveyCounts& counts, std::size_t number, const Survey& survey,
+                   const ScoreTester& tester, BlindTrial& trial) const {
     const std::vector<IceParameter> parameters = changing_parameters(score.suspect);
-    for (std::size_t i = 0; i < parameters.size(); ++i) {
-      const auto index = static_cast<Eigen::Index>(i);
-      trial.found.push_back(null_number(parameters[i], base_) + score.amplitudes(index));
-      trial.errors.push_back(score.errors(index));
+    const auto numbers_at = [&](const Eigen::VectorXd& amplitudes) {
+      std::vector<double> numbers;
+      for (const IceParameter& p : parameters)
+        numbers.push_back(std::clamp(
+            null_number(p, base_) + amplitudes(static_cast<Eigen::Index>(numbers.size())), p.low, p.high));
+      return numbers;
+    };
+    const auto light = [&](const Eigen::VectorXd& amplitudes) {
+      return light_in_bins(with_parameters(base_, parameters, numbers_at(amplitudes)),
+                           value_stream + number * runs_.size(), survey);
+    };
+    ScoreValues values{score.amplitudes, score.errors};
+    try {
+      values = beyond_first_order(survey, tester.tested(score.suspect), counts, score, light);
+    } catch (const InputError&) {
+      // No physical ice on the way: to first order.
     }
+    trial.found = numbers_at(values.amplitudes);
+    trial.errors.assign(values.errors.begin(), values.errors.end());
   }
 
   const Model& base_;

@@ -222,22 +222,30 @@ class Diagnoser {
 
   std::vector<Candidate> fit_leading(const DiagnosisStep& now, int step) {
     std::vector<Candidate> candidates;
+    std::size_t effects = 0;
     const double from = begin(step), length = begin(step + 1) - from;
     for (const EffectScore& score : now.scores.effects) {
       const Score& suspect = score.best;
-      if (!leads(score, now.scores) || candidates.size() == most_trials || accepted_.has(suspect.suspect) ||
+      if (!leads(score, now.scores) || effects == most_trials || accepted_.has(suspect.suspect) ||
           is_more_of_accepted(score, now.scores))
         continue;
-      const double done = 0.4 + 0.4 * static_cast<double>(candidates.size()) / most_trials;
+      const double done = 0.4 + 0.4 * static_cast<double>(effects++) / most_trials;
       stage(from + length * done, from + length * (done + 0.13), "fitting " + text_of(suspect.suspect));
-      try {
-        candidates.push_back(fitted(suspect));
-      } catch (const InputError&) {
-        result_.remarks.push_back(
-            fmt::format("{} could not be fitted: no physical ice on its way", text_of(suspect.suspect)));
-      }
+      add_fitted(suspect, candidates);
+      // The leader's place, too, is only the best of those that were tried.
+      if (&score == &now.scores.effects.front() && score.elsewhere &&
+          !accepted_.has(score.elsewhere->suspect))
+        add_fitted(*score.elsewhere, candidates);
     }
     return candidates;
+  }
+  void add_fitted(const Score& score, std::vector<Candidate>& candidates) {
+    try {
+      candidates.push_back(fitted(score));
+    } catch (const InputError&) {
+      result_.remarks.push_back(
+          fmt::format("{} could not be fitted: no physical ice on its way", text_of(score.suspect)));
+    }
   }
 
   // What an effect that is in the model already would explain best must not go to what is like it.
@@ -284,6 +292,10 @@ class Diagnoser {
     for (const Separation& separation : separations_)
       if (separation.effect == named.group.front() && contains(named.group, separation.other))
         named.separations.push_back(separation);
+    for (const Trial& rival : now.trials)
+      if (rival.suspect.effect == trial.suspect.effect && lost_narrowly(rival))
+        result_.remarks.push_back(
+            fmt::format("{} can hardly be told from {}", text_of(rival.suspect), text_of(trial.suspect)));
     accepted_.add(std::move(named), fit);
     now.added = accepted_.effects().size() - 1;
     retest();
@@ -367,6 +379,7 @@ class Diagnoser {
       NamedEffect& winner = result_.effects[*step.added];
       for (const Trial& trial : step.trials) {
         const std::string& rival = trial.suspect.effect;
+        if (rival == winner.suspect.effect) continue;  // at another place
         if (!is_there_as_well(trial) || !contains(result_.verdict, rival)) continue;
         std::erase(winner.group, rival);
         std::erase_if(winner.separations, [&](const Separation& other) { return other.other == rival; });
@@ -380,7 +393,8 @@ class Diagnoser {
     RunSettings settings = options_;
     if (!accepted_.empty()) settings.light.light *= light_of_gap, settings.light.least_hits *= light_of_gap;
     const ModelJudge judge(base_, data_, look_, settings, gap_stream);
-    result_.gaps = gaps_of(base_, data_, judge);
+    const std::vector<ModelJudge::Fit> of_base = fits_of(base_, data_, judge);
+    result_.gaps = gaps_of(data_, of_base);
     for (const RunGap& run : result_.gaps) result_.gap_before += run.before;
     result_.gap_after = result_.gap_before;
     if (accepted_.empty()) return;
@@ -395,15 +409,14 @@ class Diagnoser {
       result_.gap_after = result_.gap_before;
       if (!accepted_.empty()) accepted_.take(fit(data_, accepted_.parameters(), rounds));
     }
-    result_.p_of_rest = p_of_fit(judge, accepted_.model());
+    result_.p_of_rest = p_of_fit(accepted_.empty() ? of_base : fits_of(accepted_.model(), data_, judge));
   }
 
   // A look has hardly more light than the data, and its noise hides what this shows.
-  double p_of_fit(const ModelJudge& judge, const Model& model) const {
+  static double p_of_fit(const std::vector<ModelJudge::Fit>& fits) {
     double neg_llh = 0, variance = 0;
     ExpectedFit right;
-    for (std::size_t r = 0; r < data_.runs.size(); ++r) {
-      const ModelJudge::Fit fit = judge.judge(model, r);
+    for (const ModelJudge::Fit& fit : fits) {
       neg_llh += fit.measured.neg_llh;
       right.mean += fit.expected;
       variance += fit.scatter * fit.scatter;

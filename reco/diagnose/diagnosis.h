@@ -20,6 +20,9 @@
 
 namespace floe {
 
+// Changes whenever results of diagnoses or of their trials do.
+constexpr int diagnosis_revision = 2;
+
 struct DiagnosisOptions : RunSettings {
   DiagnosisOptions() { light = {2, 2e4, 2e11}; }
   double alpha = 0.01;   // probability of naming anything when nothing is missing

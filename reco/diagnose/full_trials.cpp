@@ -39,9 +39,11 @@ bool FullTrial::right() const {
 }
 
 bool FullTrial::elsewhere() const {
-  return std::any_of(named.begin(), named.end(), [&](const NamedInTrial& name) {
-    return std::any_of(hidden.begin(), hidden.end(),
-                       [&](const HiddenEffect& effect) { return name.is_elsewhere(effect); });
+  return std::any_of(hidden.begin(), hidden.end(), [&](const HiddenEffect& effect) {
+    const auto first = std::find_if(named.begin(), named.end(), [&](const NamedInTrial& name) {
+      return name.effect == effect.effect;
+    });
+    return first != named.end() && first->is_elsewhere(effect);
   });
 }
 

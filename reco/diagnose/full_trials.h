@@ -50,7 +50,8 @@ struct FullTrial {
   // The first name is right; of a pair both names are, in any order; what is outside of the catalogue stays
   // unexplained.
   bool right() const;
-  bool elsewhere() const;  // whether a right name is of a wrong place
+  // Whether the first name of a hidden effect is of a wrong place.
+  bool elsewhere() const;
 };
 
 FullTrial full_trial(const Model& base, const std::vector<HiddenEffect>& hidden, bool outside,

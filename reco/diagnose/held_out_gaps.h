@@ -18,8 +18,11 @@ struct RunGap {
   double before = 0, after = 0;  // deviance above what it would be on average if the model were true
 };
 
-// By run, of a model that nothing was fitted to: `after` is as `before`.
-std::vector<RunGap> gaps_of(const Model& base, const FlasherData& data, const ModelJudge& judge);
+// By run.
+std::vector<ModelJudge::Fit> fits_of(const Model& model, const FlasherData& data, const ModelJudge& judge);
+
+// `fits`: of a model that nothing was fitted to; `after` is as `before`.
+std::vector<RunGap> gaps_of(const FlasherData& data, const std::vector<ModelJudge::Fit>& fits);
 
 // Sets `after`. `model_without(fold)`: fitted to the runs of all other folds.
 void hold_out(const HeldOutRuns& held_out, const ModelJudge& judge,

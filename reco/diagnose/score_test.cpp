@@ -174,7 +174,11 @@ VectorXd spread_over_columns(const Suspect& suspect, const VectorXd& amplitudes,
 }  // namespace
 
 VectorXd TestedSuspect::amplitudes(const VectorXd& columns) const {
-  const VectorXd gap = combined(*suspect, columns), at = inverse_information * gap;
+  return amplitudes(columns, VectorXd::Zero(low.size()));
+}
+VectorXd TestedSuspect::amplitudes(const VectorXd& columns, const VectorXd& around) const {
+  const VectorXd gap = combined(*suspect, columns) + information * around;
+  const VectorXd at = inverse_information * gap;
   if (((at - low).array() >= 0).all() && ((high - at).array() >= 0).all()) return at;
   const MatrixXd weight = information * inverse_noise;
   return within_limits(weight * information, weight * gap, low, high, at);
@@ -234,6 +238,22 @@ double ScoreTester::gain_to_be_named(const TestedSuspect& suspect, double alpha)
                  suspect.degrees);
 }
 
+Score ScoreTester::score_of(const TestedSuspect& tested, const VectorXd& gap, double floor) const {
+  const VectorXd amplitudes = tested.amplitudes(gap);
+  return {*tested.suspect, tested.gain(gap, floor), amplitudes, tested.errors(), tested.size(amplitudes)};
+}
+
+std::optional<Score> ScoreTester::elsewhere(const Score& best, const VectorXd& gap, double floor) const {
+  constexpr double nearly = 0.6;  // of the best gain
+  const TestedSuspect* most = nullptr;
+  double gain = nearly * best.gain;
+  for (const TestedSuspect& t : tested_)
+    if (t.suspect->effect == best.suspect.effect && !is_same_place(t.suspect->place, best.suspect.place))
+      if (const double own = t.gain(gap, floor); own > gain) most = &t, gain = own;
+  if (!most) return {};
+  return score_of(*most, gap, floor);
+}
+
 ScoreTest ScoreTester::test(const SurveyCounts& counts, double floor) const {
   const VectorXd gap = gap_of(survey_, counts);
   // By effect, the suspect that surprises the most.
@@ -247,9 +267,9 @@ ScoreTest ScoreTester::test(const SurveyCounts& counts, double floor) const {
   ScoreTest result;
   for (const auto& [effect, t] : best) {
     EffectScore score;
-    score.best = {*t->suspect, t->gain(gap, floor), t->amplitudes(gap), t->errors(), 0};
-    score.best.size = t->size(score.best.amplitudes);
+    score.best = score_of(*t, gap, floor);
     score.ln_p = ln_probability(surprise[effect], ln_number_.at(effect));
+    score.elsewhere = elsewhere(score.best, gap, floor);
     result.effects.push_back(std::move(score));
   }
   if (result.effects.empty()) return result;
@@ -269,10 +289,14 @@ ScoreTest ScoreTester::test(const SurveyCounts& counts, double floor) const {
   return result;
 }
 
-VectorXd ScoreTester::difference(const Score& score, const std::string& other) const {
-  const TestedSuspect& own = *std::find_if(tested_.begin(), tested_.end(), [&](const TestedSuspect& t) {
-    return t.suspect->effect == score.suspect.effect && t.suspect->place == score.suspect.place;
+const TestedSuspect& ScoreTester::tested(const Suspect& suspect) const {
+  return *std::find_if(tested_.begin(), tested_.end(), [&](const TestedSuspect& t) {
+    return t.suspect->effect == suspect.effect && t.suspect->place == suspect.place;
   });
+}
+
+VectorXd ScoreTester::difference(const Score& score, const std::string& other) const {
+  const TestedSuspect& own = tested(score.suspect);
   VectorXd imitated = VectorXd::Zero(survey_.information.cols());
   double most = 0;
   for (const TestedSuspect& t : tested_) {

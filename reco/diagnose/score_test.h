@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,9 @@ struct EffectScore {
   // Share of the best suspect's change of light that this one can imitate: correlation, brightness and time
   // zero of runs apart.
   double likeness = 0;
+  // Of the suspects at other places (is_same_place) the best, where it explains nearly as much: a flasher
+  // that has moved looks much like the nearest string moved the other way.
+  std::optional<Score> elsewhere = {};
 };
 
 struct ScoreTest {
@@ -49,8 +53,10 @@ struct TestedSuspect {
   double light;               // counts of all bins
   int degrees;                // combinations of amplitudes that light shows
 
-  // By the gaps of all columns (gap_of): the most likely within the limits.
+  // By the gaps of all columns (gap_of): the most likely within the limits. `around`: of what light was
+  // expected with; none: the survey's model.
   Eigen::VectorXd amplitudes(const Eigen::VectorXd& columns) const;
+  Eigen::VectorXd amplitudes(const Eigen::VectorXd& columns, const Eigen::VectorXd& around) const;
   Eigen::VectorXd errors() const;  // of the amplitudes
   double size(const Eigen::VectorXd& amplitudes) const;
   double gain(const Eigen::VectorXd& columns, double floor) const;
@@ -77,12 +83,16 @@ class ScoreTester {
   // effect can change, of all its places.
   Eigen::VectorXd difference(const Score& score, const std::string& other) const;
   const std::vector<TestedSuspect>& suspects() const { return tested_; }
+  const TestedSuspect& tested(const Suspect& suspect) const;  // one of suspects()
   // Gain at which its effect is named with this probability for everything tried.
   double gain_to_be_named(const TestedSuspect& suspect, double alpha) const;
   // Gain at which its effect has this significance [standard deviations] for all its places.
   double gain_of_significance(const TestedSuspect& suspect, double sigmas) const;
 
  private:
+  Score score_of(const TestedSuspect& tested, const Eigen::VectorXd& gap, double floor) const;
+  std::optional<Score> elsewhere(const Score& best, const Eigen::VectorXd& gap, double floor) const;
+
   const Survey& survey_;
   std::vector<TestedSuspect> tested_;
   // By effect, the largest surprise of any of its suspects in each draw, and what follows from them.

@@ -258,6 +258,41 @@ TEST_F(ASurvey, KnowsHowMuchLightTellsEffectsApart) {
   EXPECT_NE(apart().sentence.find("other places"), std::string::npos);
 }
 
+// Of two strings that count too much light either may be the one; a place that explains nothing is no rival.
+TEST_F(ASurvey, AsksAtOtherPlacesThatExplainNearlyAsMuch) {
+  const int other = brightest_other_string();
+  std::vector<Suspect> suspects;
+  for (const int string : {36, other}) {
+    const auto at = static_cast<int>(column(SurveyColumn::Kind::string_efficiency, string, 0));
+    suspects.push_back({"string-efficiency", {{"string", string}}, {{{at, 1.0}}}});
+  }
+  const ScoreTester tester(survey_, suspects, parameters_, Draws{50, 1});
+  // Counts as expected, but for these changes.
+  const auto first = [&](double on_other) {
+    SurveyCounts counts = measured_counts(survey_);
+    counts[0].data = survey_.runs[0].expected;
+    for (const RunBins::Receiver& receiver : survey_.runs[0].bins.receivers()) {
+      const int string = model_.detector->modules()[receiver.module].id.string;
+      auto own = counts[0].data.segment(receiver.first, receiver.bins());
+      if (string == 36) own *= 1.3;
+      if (string == other) own *= 1 + on_other;
+    }
+    return tester.test(counts, 0.001).effects.front();
+  };
+  const auto information = [&](std::size_t i) {
+    const int at = suspects[i].amplitudes[0][0].first;
+    return survey_.information(at, at);
+  };
+  const double as_visible = 0.3 * std::sqrt(information(0) / information(1));
+  const EffectScore alone = first(0), both = first(0.9 * as_visible);
+  EXPECT_EQ(alone.best.suspect.place, suspects[0].place);
+  EXPECT_FALSE(alone.elsewhere);
+  ASSERT_TRUE(both.elsewhere);
+  EXPECT_FALSE(is_same_place(both.elsewhere->suspect.place, both.best.suspect.place));
+  EXPECT_GT(both.elsewhere->gain, 0.5 * both.best.gain);
+  EXPECT_LE(both.elsewhere->gain, both.best.gain);
+}
+
 // Simulations of one model differ in how well they fit the same data, by as much as is said.
 TEST_F(ASurvey, SimulationsDifferByTheirNoise) {
   constexpr int pairs = 100;

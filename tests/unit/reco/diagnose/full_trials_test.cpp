@@ -52,6 +52,10 @@ TEST(FullTrial, SaysWhenTheNameIsOfAnotherPlace) {
   const FullTrial wrong = trial_of({late}, {named("time-offset", {}, {{"string", 37}})});
   EXPECT_TRUE(wrong.right());
   EXPECT_TRUE(wrong.elsewhere());
+  const NamedInTrial here = named("time-offset", {}, {{"string", 36}}),
+                     there = named("time-offset", {}, {{"string", 37}});
+  EXPECT_FALSE(trial_of({late}, {here, there}).elsewhere());
+  EXPECT_TRUE(trial_of({late}, {there, here}).elsewhere());
   band.place = {{"depth", 1800}, {"width", 40}};
   EXPECT_FALSE(
       trial_of({band}, {named("absorption-layer", {}, {{"depth", 1825}, {"width", 20}})}).elsewhere());
