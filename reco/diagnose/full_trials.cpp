@@ -40,9 +40,8 @@ bool FullTrial::right() const {
 
 bool FullTrial::elsewhere() const {
   return std::any_of(hidden.begin(), hidden.end(), [&](const HiddenEffect& effect) {
-    const auto first = std::find_if(named.begin(), named.end(), [&](const NamedInTrial& name) {
-      return name.effect == effect.effect;
-    });
+    const auto first = std::find_if(named.begin(), named.end(),
+                                    [&](const NamedInTrial& name) { return name.effect == effect.effect; });
     return first != named.end() && first->is_elsewhere(effect);
   });
 }
