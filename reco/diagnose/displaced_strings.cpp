@@ -53,7 +53,11 @@ DisplacedStrings displaced_strings(const Model& model, const RunRequest& request
         slopes.folds[fold].slope_squares.col(axis) += factor * factor * counted.folds[fold].counts;
       }
     }
-  for (LightFold& fold : slopes.folds) fold.dwell = fold.counts.replicate(1, 3);
+  for (int fold = 0; fold < 2; ++fold) {
+    LightFold& own = slopes.folds[fold];
+    own.dwell = own.counts.replicate(1, 3);
+    result.raw[static_cast<std::size_t>(fold)] = own.slopes.array().colwise() / own.counts.array().max(1);
+  }
   const SmoothSlopes smooth = smooth_slopes(slopes.folds, slopes.places, slopes.symmetric);
   result.fold = {smooth.fold[0], smooth.fold[1]};
   return result;

@@ -15,6 +15,7 @@ namespace floe {
 // [1/m]; from even and from odd photons.
 struct DisplacedStrings {
   std::array<Eigen::MatrixXd, 2> fold;  // bins x 3
+  std::array<Eigen::MatrixXd, 2> raw;   // the same, as simulated: right on average, but noisy
   std::uint64_t propagated = 0;
 };
 

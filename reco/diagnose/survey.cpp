@@ -28,6 +28,7 @@ struct RunSlopes {
   Eigen::MatrixXd parameters;  // bins x parameters
   Eigen::MatrixXd raw;         // the same, as simulated: right on average, but noisy
   PlaceSlopes places;
+  PlaceSlopes raw_places;  // likewise; without the delay
 };
 
 // Slopes without what brightness and time zero could do.
@@ -130,7 +131,10 @@ class Surveyor {
           displaced_strings(point_.model(), other, run.bins, time_zero, light,
                             pairs.share(run.counts.simulated[0].sum() + run.counts.simulated[1].sum()) / 2);
       survey_.photons += displaced.propagated;
-      for (std::size_t fold = 0; fold < 2; ++fold) slopes[fold].places.displacement = displaced.fold[fold];
+      for (std::size_t fold = 0; fold < 2; ++fold) {
+        slopes[fold].places.displacement = displaced.fold[fold];
+        slopes[fold].raw_places.displacement = displaced.raw[fold];
+      }
     }
     const Eigen::ArrayXd both = run.counts.simulated[0] + run.counts.simulated[1];
     run.expected = run.scale * both;
@@ -149,7 +153,7 @@ class Surveyor {
     const auto parameters = static_cast<Eigen::Index>(plan_.parameters.size());
     survey_.information = Eigen::MatrixXd::Zero(size, size);
     survey_.noise = survey_.information;
-    of_slopes_ = Eigen::VectorXd::Zero(parameters);
+    of_slopes_ = Eigen::VectorXd::Zero(size);
     for (std::size_t r = 0; r < survey_.runs.size(); ++r) {
       SurveyRun& run = survey_.runs[r];
       for (std::size_t fold = 0; fold < 2; ++fold) {
@@ -182,41 +186,62 @@ class Surveyor {
     }
   }
 
-  // By parameter: what the diagonal of the information would be with slopes as simulated, right on average,
-  // in place of one of the two halves.
+  // Whether its slopes are simulated, and shrunk as their noise demands.
+  bool is_shrunk(const SurveyColumn& column) const {
+    return column.kind == Kind::parameter || is_displacement(column.kind);
+  }
+  Eigen::VectorXd raw_slope(const SurveyColumn& column, const SurveyRun& run, const RunSlopes& slopes) const {
+    if (column.kind == Kind::parameter) return slopes.raw.col(static_cast<Eigen::Index>(column.parameter));
+    return place_slope(column, run, slopes.raw_places, detector());
+  }
+  // By column: what the diagonal of the information would be with slopes as simulated, right on average, in
+  // place of one of the two halves.
   Eigen::VectorXd own_information(const SurveyRun& run, const RunSlopes& even, const RunSlopes& odd) const {
-    const Eigen::Index parameters = even.raw.cols();
     const Eigen::ArrayXd light = run.trust * run.expected;
-    Eigen::VectorXd sums(parameters);
-    for (Eigen::Index p = 0; p < parameters; ++p)
-      sums(p) = (light * (run.halves[0].col(p).array() * odd.raw.col(p).array() +
-                          run.halves[1].col(p).array() * even.raw.col(p).array()))
+    Eigen::VectorXd sums = Eigen::VectorXd::Zero(run.halves[0].cols());
+    for (Eigen::Index c = 0; c < sums.size(); ++c) {
+      const SurveyColumn& column = survey_.columns[static_cast<std::size_t>(c)];
+      if (!is_shrunk(column)) continue;
+      sums(c) = (light * (run.halves[0].col(c).array() * raw_slope(column, run, odd).array() +
+                          run.halves[1].col(c).array() * raw_slope(column, run, even).array()))
                     .sum() /
                 2;
+    }
     return sums;
+  }
+
+  // Whose slopes are shrunk alike: layers of a family, strings that flash and strings that do not.
+  std::string group_of(const SurveyColumn& column) const {
+    if (column.kind == Kind::parameter) {
+      const IceParameter& parameter = plan_.parameters[column.parameter];
+      return parameter.family.empty() ? parameter.name : parameter.family;
+    }
+    const bool flashes = std::any_of(survey_.runs.begin(), survey_.runs.end(), [&](const SurveyRun& run) {
+      return run.data.run.module.string == column.string;
+    });
+    return fmt::format("{} of {}", static_cast<int>(column.kind), flashes ? "flashers" : "receivers");
   }
 
   // Weights are shrunk where slopes are noisy. Scaled back, they are what the slopes are on average, and
   // amplitudes come out right.
   void scale_to_slopes() {
     constexpr double least = 0.3, most = 3;  // weights further off are of no use
-    // Layers of a family one by one would be too noisy.
+    // Columns of a group one by one would be too noisy.
     struct Sums {
       double slope = 0, information = 0;
     };
     std::map<std::string, Sums> sums;
-    const auto group = [&](Eigen::Index p) {
-      const IceParameter& parameter = plan_.parameters[static_cast<std::size_t>(p)];
-      return parameter.family.empty() ? parameter.name : parameter.family;
-    };
-    for (Eigen::Index p = 0; p < of_slopes_.size(); ++p) {
-      sums[group(p)].slope += of_slopes_(p);
-      sums[group(p)].information += survey_.information(p, p);
+    const auto group = [&](Eigen::Index c) { return group_of(survey_.columns[static_cast<std::size_t>(c)]); };
+    for (Eigen::Index c = 0; c < of_slopes_.size(); ++c) {
+      sums[group(c)].slope += of_slopes_(c);
+      sums[group(c)].information += survey_.information(c, c);
     }
     Eigen::VectorXd factor = Eigen::VectorXd::Ones(survey_.information.cols());
-    for (Eigen::Index p = 0; p < of_slopes_.size(); ++p)
-      if (const Sums& own = sums[group(p)]; own.information > 0)
-        factor(p) = std::clamp(own.slope / own.information, least, most);
+    for (Eigen::Index c = 0; c < of_slopes_.size(); ++c) {
+      if (!is_shrunk(survey_.columns[static_cast<std::size_t>(c)])) continue;
+      if (const Sums& own = sums[group(c)]; own.information > 0)
+        factor(c) = std::clamp(own.slope / own.information, least, most);
+    }
     for (SurveyRun& run : survey_.runs)
       for (auto* both : {&run.halves, &run.weights})
         for (Eigen::MatrixXd& weights : *both) weights = weights * factor.asDiagonal();
@@ -252,7 +277,7 @@ class Surveyor {
   Survey survey_;
   std::vector<RunSlopes> slopes_;  // of each run, even and odd photons
   std::vector<char> independent_;  // by parameter: its pairs have photons of their own
-  Eigen::VectorXd of_slopes_;      // by parameter
+  Eigen::VectorXd of_slopes_;      // by column; see own_information
 };
 
 }  // namespace

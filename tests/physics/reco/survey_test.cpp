@@ -197,6 +197,8 @@ TEST_F(ASurvey, KnowsHowChangesShow) {
                column(Kind::module_efficiency, string, 21), 0.5);
   expect_found({"time-offset." + on_other, "time-offset.time=5"}, column(Kind::string_time, other, 0), 5);
   expect_found({"geometry-offset." + on_other, "geometry-offset.x=3"}, column(Kind::string_x, other, 0), 3);
+  expect_found({"geometry-offset." + on_other, "geometry-offset.z=3"}, column(Kind::string_z, other, 0), 3);
+  expect_found({"geometry-offset.string=36", "geometry-offset.x=2"}, column(Kind::string_x, string, 0), 2);
 }
 
 // Of the true model the gap is noise: of data and simulation, as much as the survey says.
