@@ -20,7 +20,9 @@ namespace floe {
 
 // Of RunSettings, `light` is that of the survey; whole diagnoses have their own.
 struct BlindTrialOptions : RunSettings {
-  BlindTrialOptions() { light = {2, 1e3, 2e11}; }
+  // All trials share the noise of one survey: with twice the data's light, one with a lucky survey named
+  // nothing in a hundred trials with nothing missing, another eleven times the same.
+  BlindTrialOptions() { light = {10, 1e3, 2e11}; }
   int trials = 3;        // of each effect
   int nothing = 20;      // trials with nothing missing
   int full = 0;          // of the effects hidden, so many are hidden again for the whole diagnosis
@@ -34,7 +36,7 @@ struct BlindTrialOptions : RunSettings {
   double alpha = 0.01, floor = 0.005;
   int draws = 300;
   // Of the survey (see PairPlan): it serves all trials, so that its slopes may be good.
-  double pair_light = 2;
+  double pair_light = 0.4;
 };
 
 struct BlindTrial {
