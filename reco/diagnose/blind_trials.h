@@ -20,8 +20,8 @@ namespace floe {
 
 // Of RunSettings, `light` is that of the survey; whole diagnoses have their own.
 struct BlindTrialOptions : RunSettings {
-  // All trials share the noise of one survey: with twice the data's light, one with a lucky survey named
-  // nothing in a hundred trials with nothing missing, another eleven times the same.
+  // All trials share the noise of one survey: with twice the data's light, an unlucky one named the same
+  // layer in 11 of 100 trials with nothing missing.
   BlindTrialOptions() { light = {10, 1e3, 2e11}; }
   int trials = 3;        // of each effect
   int nothing = 20;      // trials with nothing missing

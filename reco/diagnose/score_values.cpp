@@ -42,6 +42,7 @@ ScoreValues beyond_first_order(const Survey& survey, const TestedSuspect& suspec
     if ((missing.array().abs() < settled * steepness * score.errors.array()).all()) break;
     at = best + missing / steepness;
   }
+  if (best.isZero()) return {score.amplitudes, score.errors};  // nothing was better than no change at all
   // Counts, and with them their squared noise, change as light does.
   return {best, score.errors / std::sqrt(steepness)};
 }
