@@ -111,14 +111,20 @@ class Trials {
     if (progress_) progress_(0.3 + 0.7 * (done_ + share_of_full * per_full) / all_, text);
   }
 
-  // By run. `survey`: whose runs say when noise is taken, once there is one.
+  // `survey`: whose runs say when noise is taken, once there is one.
+  std::vector<SimulatedHit> hits_of(const Model& model, std::size_t r, std::uint64_t stream, double photons,
+                                    const Survey* survey) const {
+    RunRequest request = request_of(runs_[r], options_, stream + r);
+    request.photons = photons;
+    if (survey) request.noise = noise_window(survey->runs[r].data, photons);
+    return simulate_run(model, request).hits;
+  }
+  // By run.
   using Light = std::vector<std::vector<SimulatedHit>>;
   Light light_of(const Model& model, std::uint64_t stream, const Survey* survey = nullptr) const {
     Light light;
     for (std::size_t r = 0; r < runs_.size(); ++r) {
-      RunRequest request = request_of(runs_[r], options_, stream + r);
-      if (survey) request.noise = noise_window(survey->runs[r].data, request.photons);
-      light.push_back(simulate_run(model, request).hits);
+      light.push_back(hits_of(model, r, stream, runs_[r].photons, survey));
     }
     return light;
   }
@@ -126,10 +132,8 @@ class Trials {
   LightInBins light_in_bins(const Model& model, std::uint64_t stream, const Survey& survey) const {
     LightInBins light;
     for (std::size_t r = 0; r < runs_.size(); ++r) {
-      RunRequest request = request_of(runs_[r], options_, stream + r);
-      request.photons = survey.runs[r].photons;
-      request.noise = noise_window(survey.runs[r].data, request.photons);
-      light.push_back(hits_in_bins(simulate_run(model, request).hits, survey.runs[r].bins));
+      light.push_back(
+          hits_in_bins(hits_of(model, r, stream, survey.runs[r].photons, &survey), survey.runs[r].bins));
     }
     return light;
   }
