@@ -74,24 +74,31 @@ std::string verdict_of(const FullTrial& trial) {
   return all_names(names);
 }
 
+const char* outcome_of(const FullTrial& trial) {
+  if (!trial.right()) return "wrong";
+  if (trial.elsewhere()) return "right, elsewhere";
+  return trial.named_as_well() ? "right, but named" : "right";
+}
+
 std::string full_trials(const BlindTrials& trials) {
   if (trials.full.empty()) return "";
   TextTable table({"hidden for a whole diagnosis", "verdict", "gap closed", ""});
-  int right = 0, elsewhere = 0, values = 0, within = 0;
+  int right = 0, elsewhere = 0, named = 0, values = 0, within = 0;
   for (const FullTrial& trial : trials.full) {
     table.add({hidden_names(trial), verdict_of(trial), fmt::format("{:.0f}%", 100 * trial.closed),
-               !trial.right()      ? "wrong"
-               : trial.elsewhere() ? "right, elsewhere"
-                                   : "right"});
+               outcome_of(trial)});
     right += trial.right();
     elsewhere += trial.right() && trial.elsewhere();
+    named += trial.named_as_well();
     for (const FullTrial::Value& value : trial.values) {
       ++values;
       within += std::abs(value.found - value.hidden) < 2 * value.error;
     }
   }
-  std::string text = table.str() + fmt::format("Right: {} of {}, {} of them at another place.\n", right,
-                                               trials.full.size(), elsewhere);
+  std::string text =
+      table.str() +
+      fmt::format("Right: {} of {}; {} of them at another place, {} unexplained but with a name, too.\n",
+                  right, trials.full.size(), elsewhere, named);
   if (values > 0) text += fmt::format("Fitted values within two errors: {} of {}.\n", within, values);
   return text;
 }
@@ -143,30 +150,31 @@ Json power_json(const BlindTrials& trials) {
 }
 
 // A run of many flashes has their light together.
-std::vector<FlasherRun> runs_of(const std::string& file) {
-  std::vector<FlasherRun> runs;
+std::vector<RunOfTrials> runs_of(const std::string& file) {
+  std::vector<RunOfTrials> runs;
   for (const RunToSimulate& run : read_flasher_runs(file)) {
     if (run.beam || run.pulse)
       throw InputError({file},
                        fmt::format("a measured {} of {},{}", run.beam ? "beam" : "pulse",
                                    run.run.module.string, run.run.module.dom),
                        "widths of beam and pulse, which are all that trials simulate");
-    runs.push_back(run.run);
-    runs.back().photons *= run.repeats;
+    runs.push_back({run.run, static_cast<double>(run.repeats)});
+    runs.back().run.photons *= run.repeats;
   }
   return runs;
 }
 
 // All that trials depend on.
-Json heading_of(const Model& base, const std::vector<FlasherRun>& runs, const BlindTrialOptions& options) {
+Json heading_of(const Model& base, const std::vector<RunOfTrials>& runs, const BlindTrialOptions& options) {
   Json flashers = Json::array();
-  for (const FlasherRun& run : runs)
+  for (const auto& [run, repeats] : runs)
     flashers.push_back({run.module.string, run.module.dom, name_of(run.leds), run.orientation, run.wavelength,
-                        run.beam_width, run.pulse_width, run.photons});
+                        run.beam_width, run.pulse_width, run.photons, repeats});
   return {{"journal", "floe blind-trials"},
           {"version", FLOE_VERSION},
           {"diagnosis", diagnosis_revision},
           {"seed", options.seed},
+          {"effects", options.effects},
           {"trials", options.trials},
           {"nothing", options.nothing},
           {"full", {options.full, options.full_nothing, options.pairs, options.outside}},
@@ -180,7 +188,7 @@ Json heading_of(const Model& base, const std::vector<FlasherRun>& runs, const Bl
 }
 
 BlindTrials run_resumable(const BlindTrialsCommand& command, const Model& base,
-                          const std::vector<FlasherRun>& runs, const BlindTrialOptions& options) {
+                          const std::vector<RunOfTrials>& runs, const BlindTrialOptions& options) {
   TrialRecord record;
   std::unique_ptr<RowJournal> journal;
   if (command.rows) {
@@ -205,7 +213,7 @@ void run_trials(const BlindTrialsCommand& command) {
   options.oversize = command.run.oversize;
   PlannedOutput json(command.output.json);
   const Model base = load_model(command.model);
-  const std::vector<FlasherRun> runs = runs_of(command.runs);
+  const std::vector<RunOfTrials> runs = runs_of(command.runs);
   const BlindTrials trials = run_resumable(command, base, runs, options);
   Json result = {
       {"version", FLOE_VERSION},   {"base", to_json(command.model)}, {"base_model", to_json(base)},
@@ -238,6 +246,10 @@ void add_blind_trials(CLI::App& floe) {
     })->default_str(fmt::format("{}", number));
   };
   BlindTrialOptions& options = command->options;
+  app.add_option("--effects", options.effects, "Effects to hide; all if none is named")
+      ->type_name("EFFECT,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   add_count("--trials", 1000, "Trials of each effect", options.trials);
   add_count("--nothing", 10000, "Trials with nothing missing", options.nothing);
   add_count("--full", 10000, "Whole diagnoses of effects that the trials hid, of as many kinds as possible",
@@ -264,6 +276,7 @@ void add_blind_trials(CLI::App& floe) {
       "Examples:\n"
       "  floe blind-trials runs.toml --trials 1 --nothing 5\n"
       "  floe blind-trials runs.toml --ice my-ice --least 3 --most 8 --json trials.json\n"
+      "  floe blind-trials runs.toml --effects tilt,noise --trials 5 --nothing 0\n"
       "  floe blind-trials runs.toml --full 5 --pairs 2 --outside 4 --rows trials.jsonl\n"
       "A whole diagnosis takes as long as floe diagnose does.");
   app.callback([command] { run_trials(*command); });

@@ -8,8 +8,10 @@
 #include <cmath>
 #include <optional>
 #include <random>
+#include <ranges>
 
 #include "data/base/error.h"
+#include "propagation/effects/effect.h"
 #include "reco/diagnose/goodness.h"
 #include "reco/diagnose/outside_effects.h"
 #include "reco/diagnose/score_test.h"
@@ -30,7 +32,7 @@ RunRequest request_of(const FlasherRun& run, const RunSettings& settings, std::u
 
 class Trials {
  public:
-  Trials(const Model& base, const std::vector<FlasherRun>& runs, const BlindTrialOptions& options,
+  Trials(const Model& base, const std::vector<RunOfTrials>& runs, const BlindTrialOptions& options,
          const Progress& progress, const TrialRecord& record)
       : base_(base),
         runs_(runs),
@@ -46,7 +48,7 @@ class Trials {
     const FirstLook look = look_first(
         base_,
         [this](std::size_t r, double photons) {
-          RunRequest request = request_of(runs_[r], options_, data_stream + 1000 + r);
+          RunRequest request = request_of(runs_[r].run, options_, data_stream + 1000 + r);
           request.photons = photons;
           return request;
         },
@@ -114,7 +116,7 @@ class Trials {
   // `survey`: whose runs say when noise is taken, once there is one.
   std::vector<SimulatedHit> hits_of(const Model& model, std::size_t r, std::uint64_t stream, double photons,
                                     const Survey* survey) const {
-    RunRequest request = request_of(runs_[r], options_, stream + r);
+    RunRequest request = request_of(runs_[r].run, options_, stream + r);
     request.photons = photons;
     if (survey) request.noise = noise_window(survey->runs[r].data, photons);
     return simulate_run(model, request).hits;
@@ -124,7 +126,7 @@ class Trials {
   Light light_of(const Model& model, std::uint64_t stream, const Survey* survey = nullptr) const {
     Light light;
     for (std::size_t r = 0; r < runs_.size(); ++r) {
-      light.push_back(hits_of(model, r, stream, runs_[r].photons, survey));
+      light.push_back(hits_of(model, r, stream, runs_[r].run.photons, survey));
     }
     return light;
   }
@@ -147,11 +149,16 @@ class Trials {
   FlasherData data_of(const Light& light) const {
     std::vector<Event> events;
     for (std::size_t r = 0; r < runs_.size(); ++r) {
+      const auto& [run, repeats] = runs_[r];
       Event event;
-      event.id = fmt::format("{},{}", runs_[r].module.string, runs_[r].module.dom);
-      event.flasher = runs_[r];
+      event.id = fmt::format("{},{}", run.module.string, run.module.dom);
+      event.repeats = repeats;
+      event.flasher = run;
       event.flasher->oversize = options_.oversize;
-      for (const SimulatedHit& hit : light[r]) event.hits.push_back(to_hit(hit, *base_.detector));
+      for (const SimulatedHit& hit : light[r]) {
+        event.hits.push_back(to_hit(hit, *base_.detector));
+        event.hits.back().charge = static_cast<float>(event.hits.back().charge / repeats);
+      }
       events.push_back(std::move(event));
     }
     return flasher_data(*base_.detector, events);
@@ -195,12 +202,14 @@ class Trials {
   // As visible as other effects have to be.
   std::optional<Full> draw_outside(int number, const Survey& survey, const ExpectedFit& right) {
     constexpr int tries = 10;
+    std::vector<FlasherRun> flashers;
+    for (const RunOfTrials& run : runs_) flashers.push_back(run.run);
     const Light whole =
         light_of(base_, outside_stream + static_cast<std::uint64_t>(number) * runs_.size(), &survey);
     for (int i = 0; i < tries; ++i) {
-      const OutsideEffect outside = draw_outside_effect(number, *base_.detector, runs_, random_);
+      const OutsideEffect outside = draw_outside_effect(number, *base_.detector, flashers, random_);
       Light light = whole;
-      for (std::size_t r = 0; r < runs_.size(); ++r) outside.apply(light[r], runs_[r], random_);
+      for (std::size_t r = 0; r < runs_.size(); ++r) outside.apply(light[r], runs_[r].run, random_);
       const double significance =
           (total_neg_llh(survey, counts_of(light, survey)) - right.mean) / right.scatter;
       if (significance > options_.least)
@@ -281,13 +290,28 @@ class Trials {
     return all;
   }
 
+  bool is_wanted(const std::string& effect) const {
+    const auto& wanted = options_.effects;
+    return wanted.empty() || std::ranges::find(wanted, effect) != wanted.end();
+  }
+  using ByEffect = std::map<std::string, std::vector<const TestedSuspect*>>;
+  void expect_known(const ByEffect& by_effect) const {
+    for (const std::string& effect : options_.effects)
+      if (!by_effect.count(effect))
+        throw UsageError(
+            fmt::format("flashers of this model tell nothing of {} that could be hidden; they do of {}",
+                        effect, fmt::join(std::views::keys(by_effect), ", ")));
+  }
+
   // Of each effect some, at places drawn at random, as strong as wanted and as its parameters allow.
   std::vector<Hidden> draw_hidden(const ScoreTester& tester) {
-    std::map<std::string, std::vector<const TestedSuspect*>> by_effect;
+    ByEffect by_effect;
     for (const TestedSuspect& suspect : tester.suspects())
       by_effect[suspect.suspect->effect].push_back(&suspect);
+    expect_known(by_effect);
     std::vector<Hidden> all;
     for (const auto& [effect, places] : by_effect) {
+      if (!is_wanted(effect)) continue;
       int hid = 0;
       for (int t = 0; t < options_.trials; ++t)
         if (auto hidden = hide(places, tester)) all.push_back(std::move(*hidden)), ++hid;
@@ -393,7 +417,7 @@ class Trials {
   }
 
   const Model& base_;
-  const std::vector<FlasherRun>& runs_;
+  const std::vector<RunOfTrials>& runs_;
   const BlindTrialOptions& options_;
   const Progress& progress_;
   const TrialRecord& record_;
@@ -408,13 +432,14 @@ bool BlindTrial::right() const {
   return hidden.effect.empty() ? named.effect.empty() : named.is(hidden);
 }
 
-BlindTrials run_blind_trials(const Model& base, const std::vector<FlasherRun>& runs,
+BlindTrials run_blind_trials(const Model& base, const std::vector<RunOfTrials>& runs,
                              const BlindTrialOptions& options, const Progress& progress,
                              const TrialRecord& record) {
   check(static_cast<const RunSettings&>(options));
   if (runs.empty()) throw UsageError("blind trials need at least one flasher run");
   if (!(options.least > 0 && options.most >= options.least))
     throw UsageError("significances must be positive, the smaller one first");
+  for (const std::string& effect : options.effects) find_effect(effect);  // throws for those that are none
   const auto start = std::chrono::steady_clock::now();
   BlindTrials result = Trials(base, runs, options, progress, record).run();
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -23,8 +23,9 @@ struct BlindTrialOptions : RunSettings {
   // All trials share the noise of one survey: with twice the data's light, an unlucky one named the same
   // layer in 11 of 100 trials with nothing missing.
   BlindTrialOptions() { light = {10, 1e3, 2e11}; }
-  int trials = 3;        // of each effect
-  int nothing = 20;      // trials with nothing missing
+  std::vector<std::string> effects;  // to hide; none named: all that flashers tell of
+  int trials = 3;                    // of each effect
+  int nothing = 20;                  // trials with nothing missing
   int full = 0;          // of the effects hidden, so many are hidden again for the whole diagnosis
   int full_nothing = 0;  // whole diagnoses with nothing missing
   int pairs = 0;         // whole diagnoses of two effects hidden together
@@ -37,6 +38,11 @@ struct BlindTrialOptions : RunSettings {
   int draws = 300;
   // Of the survey (see PairPlan): it serves all trials, so that its slopes may be good.
   double pair_light = 0.4;
+};
+
+struct RunOfTrials {
+  FlasherRun run;      // its photons are those of all flashes together
+  double repeats = 1;  // of the flash, each with noise of its own
 };
 
 struct BlindTrial {
@@ -74,8 +80,8 @@ struct TrialRecord {
   std::function<void(const FullTrial&)> keep_full;
 };
 
-// `runs`: with photons and oversize, as flashers are simulated. Throws UsageError for options out of range.
-BlindTrials run_blind_trials(const Model& base, const std::vector<FlasherRun>& runs,
+// `runs`: with photons, as flashers are simulated. Throws UsageError for options out of range.
+BlindTrials run_blind_trials(const Model& base, const std::vector<RunOfTrials>& runs,
                              const BlindTrialOptions& options, const Progress& progress = {},
                              const TrialRecord& record = {});
 

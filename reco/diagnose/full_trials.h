@@ -52,6 +52,8 @@ struct FullTrial {
   bool right() const;
   // Whether the first name of a hidden effect is of a wrong place.
   bool elsewhere() const;
+  // Whether what is outside of the catalogue was left unexplained, but an effect was named as well.
+  bool named_as_well() const { return outside && right() && !named.empty(); }
 };
 
 FullTrial full_trial(const Model& base, const std::vector<HiddenEffect>& hidden, bool outside,

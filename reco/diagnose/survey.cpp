@@ -227,20 +227,15 @@ class Surveyor {
   void scale_to_slopes() {
     constexpr double least = 0.3, most = 3;  // weights further off are of no use
     // Columns of a group one by one would be too noisy.
-    struct Sums {
-      double slope = 0, information = 0;
-    };
-    std::map<std::string, Sums> sums;
-    const auto group = [&](Eigen::Index c) { return group_of(survey_.columns[static_cast<std::size_t>(c)]); };
-    for (Eigen::Index c = 0; c < of_slopes_.size(); ++c) {
-      sums[group(c)].slope += of_slopes_(c);
-      sums[group(c)].information += survey_.information(c, c);
-    }
+    std::map<std::string, std::vector<Eigen::Index>> groups;
+    for (std::size_t c = 0; c < survey_.columns.size(); ++c)
+      if (is_shrunk(survey_.columns[c]))
+        groups[group_of(survey_.columns[c])].push_back(static_cast<Eigen::Index>(c));
     Eigen::VectorXd factor = Eigen::VectorXd::Ones(survey_.information.cols());
-    for (Eigen::Index c = 0; c < of_slopes_.size(); ++c) {
-      if (!is_shrunk(survey_.columns[static_cast<std::size_t>(c)])) continue;
-      if (const Sums& own = sums[group(c)]; own.information > 0)
-        factor(c) = std::clamp(own.slope / own.information, least, most);
+    for (const auto& [name, columns] : groups) {
+      const double information = survey_.information.diagonal()(columns).sum();
+      if (information > 0)
+        factor(columns).setConstant(std::clamp(of_slopes_(columns).sum() / information, least, most));
     }
     for (SurveyRun& run : survey_.runs)
       for (auto* both : {&run.halves, &run.weights})

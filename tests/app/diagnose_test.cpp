@@ -103,6 +103,8 @@ TEST_F(Diagnose, IsPutToTheTestByBlindTrials) {
   EXPECT_TRUE(found["full"][0]["right"]);
   EXPECT_GE(right, hidden / 2.0) << outcome.out;
   EXPECT_EQ(floe("blind-trials runs.toml --least 5 --most 4").code, 2);
+  expect_error(floe("blind-trials runs.toml --effects tilt,tild"), 2,
+               "no effect 'tild'; did you mean 'tilt'?");
 
   // The same command again takes what it has kept, and another one does not.
   const std::string rows = text_of("rows.jsonl");
