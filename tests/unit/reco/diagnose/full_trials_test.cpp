@@ -80,12 +80,15 @@ TEST(FullTrial, OutsideOfTheCatalogueStaysUnexplained) {
   const auto outside = [](const std::vector<NamedInTrial>& names, bool unexplained) {
     FullTrial trial = trial_of({hidden("glow")}, names, unexplained);
     trial.outside = true;
-    return trial.right();
+    return trial;
   };
-  EXPECT_TRUE(outside({}, true));
-  EXPECT_TRUE(outside({named("tilt")}, true));  // named too much, but said that something remains
-  EXPECT_FALSE(outside({named("tilt")}, false));
-  EXPECT_FALSE(outside({}, false));
+  EXPECT_TRUE(outside({}, true).right());
+  EXPECT_FALSE(outside({}, true).named_as_well());
+  EXPECT_TRUE(outside({named("tilt")}, true).right());  // but said that something remains
+  EXPECT_TRUE(outside({named("tilt")}, true).named_as_well());
+  EXPECT_FALSE(outside({named("tilt")}, false).right());
+  EXPECT_FALSE(outside({named("tilt")}, false).named_as_well());
+  EXPECT_FALSE(outside({}, false).right());
 }
 
 class Outside : public ::testing::Test {
