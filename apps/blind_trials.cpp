@@ -178,8 +178,8 @@ Json heading_of(const Model& base, const std::vector<RunOfTrials>& runs, const B
           {"trials", options.trials},
           {"nothing", options.nothing},
           {"full", {options.full, options.full_nothing, options.pairs, options.outside}},
-          {"least", options.least},
-          {"most", options.most},
+          {"least", options.significance.least},
+          {"most", options.significance.most},
           {"alpha", options.alpha},
           {"light", options.light.light},
           {"oversize", options.oversize},
@@ -259,9 +259,11 @@ void add_blind_trials(CLI::App& floe) {
   add_count("--outside", 10000, "Whole diagnoses of effects that the catalogue does not have",
             options.outside);
   add_number(app, "--least", "SIGMA", {0.1, 1000},
-             "Expected significance of what is hidden, places counted, at least", command->options.least);
+             "Expected significance of what is hidden, places counted, at least",
+             command->options.significance.least);
   add_number(app, "--most", "SIGMA", {0.1, 1000},
-             "Expected significance of what is hidden, places counted, at most", command->options.most);
+             "Expected significance of what is hidden, places counted, at most",
+             command->options.significance.most);
   add_number(app, "--alpha", "P", {1e-6, 0.5}, "Probability of naming anything when nothing is missing",
              command->options.alpha);
   add_number(

@@ -22,13 +22,9 @@ namespace floe {
 namespace {
 
 // Far from the streams of surveys.
-constexpr std::uint64_t data_stream = std::uint64_t{1} << 46, trial_stream = std::uint64_t{1} << 47,
-                        full_stream = std::uint64_t{1} << 48, outside_stream = std::uint64_t{1} << 49,
-                        value_stream = std::uint64_t{1} << 50;
-
-RunRequest request_of(const FlasherRun& run, const RunSettings& settings, std::uint64_t stream) {
-  return {run, run.photons, settings.oversize, settings.seed, stream, settings.threads};
-}
+constexpr std::uint64_t data_stream = std::uint64_t{1} << 46, look_stream = data_stream + 1000,
+                        trial_stream = std::uint64_t{1} << 47, full_stream = std::uint64_t{1} << 48,
+                        outside_stream = std::uint64_t{1} << 49, value_stream = std::uint64_t{1} << 50;
 
 class Trials {
  public:
@@ -39,16 +35,17 @@ class Trials {
         options_(options),
         progress_(progress),
         record_(record),
+        light_(*base.detector, runs, options),
         random_(options.seed) {}
 
   BlindTrials run() {
-    FlasherData data = data_of(light_of(base_, data_stream));
+    FlasherData data = light_.data_of(light_.hits(base_, data_stream));
     if (data.runs.size() != runs_.size())
       throw UsageError(fmt::format("trials need light of every run; {}", fmt::join(data.left_out, "; ")));
     const FirstLook look = look_first(
         base_,
         [this](std::size_t r, double photons) {
-          RunRequest request = request_of(runs_[r].run, options_, data_stream + 1000 + r);
+          RunRequest request = light_.request(r, look_stream);
           request.photons = photons;
           return request;
         },
@@ -64,8 +61,8 @@ class Trials {
     const std::vector<Suspect> suspects = suspects_of(survey, plan);
     const ScoreTester tester(survey, suspects, plan.parameters, draws());
 
-    result_.power = power(tester);
-    const std::vector<Hidden> hidden = draw_hidden(tester);
+    result_.power = seen_above(tester, base_, alpha_of_score());
+    const std::vector<Hidden> hidden = plan_trials(tester);
     const std::vector<Full> full = plan_full(hidden, survey);
     // A whole diagnosis takes as long as many tests of scores.
     done_ = 0, all_ = static_cast<double>(hidden.size()) + per_full * static_cast<double>(full.size());
@@ -79,12 +76,6 @@ class Trials {
   }
 
  private:
-  struct Hidden {
-    HiddenEffect effect;
-    std::vector<IceParameter> parameters;
-    std::vector<double> numbers;
-    Model model;
-  };
   // What a whole diagnosis is given.
   struct Full {
     std::vector<HiddenEffect> hidden;
@@ -111,64 +102,6 @@ class Trials {
 
   void report(double share_of_full, const std::string& text) const {
     if (progress_) progress_(0.3 + 0.7 * (done_ + share_of_full * per_full) / all_, text);
-  }
-
-  // `survey`: whose runs say when noise is taken, once there is one.
-  std::vector<SimulatedHit> hits_of(const Model& model, std::size_t r, std::uint64_t stream, double photons,
-                                    const Survey* survey) const {
-    RunRequest request = request_of(runs_[r].run, options_, stream + r);
-    request.photons = photons;
-    if (survey) request.noise = noise_window(survey->runs[r].data, photons);
-    return simulate_run(model, request).hits;
-  }
-  // By run.
-  using Light = std::vector<std::vector<SimulatedHit>>;
-  Light light_of(const Model& model, std::uint64_t stream, const Survey* survey = nullptr) const {
-    Light light;
-    for (std::size_t r = 0; r < runs_.size(); ++r) {
-      light.push_back(hits_of(model, r, stream, runs_[r].run.photons, survey));
-    }
-    return light;
-  }
-  // As much light of each run as the survey has.
-  LightInBins light_in_bins(const Model& model, std::uint64_t stream, const Survey& survey) const {
-    LightInBins light;
-    for (std::size_t r = 0; r < runs_.size(); ++r) {
-      light.push_back(
-          hits_in_bins(hits_of(model, r, stream, survey.runs[r].photons, &survey), survey.runs[r].bins));
-    }
-    return light;
-  }
-  static Eigen::VectorXd hits_in_bins(const std::vector<SimulatedHit>& hits, const RunBins& bins) {
-    Eigen::VectorXd counts = Eigen::VectorXd::Zero(bins.size());
-    for (const SimulatedHit& hit : hits)
-      if (const int bin = bins.bin(hit.module, hit.time); bin >= 0) counts(bin) += 1;
-    return counts;
-  }
-
-  FlasherData data_of(const Light& light) const {
-    std::vector<Event> events;
-    for (std::size_t r = 0; r < runs_.size(); ++r) {
-      const auto& [run, repeats] = runs_[r];
-      Event event;
-      event.id = fmt::format("{},{}", run.module.string, run.module.dom);
-      event.repeats = repeats;
-      event.flasher = run;
-      event.flasher->oversize = options_.oversize;
-      for (const SimulatedHit& hit : light[r]) {
-        event.hits.push_back(to_hit(hit, *base_.detector));
-        event.hits.back().charge = static_cast<float>(event.hits.back().charge / repeats);
-      }
-      events.push_back(std::move(event));
-    }
-    return flasher_data(*base_.detector, events);
-  }
-
-  static SurveyCounts counts_of(const Light& light, const Survey& survey) {
-    SurveyCounts counts = measured_counts(survey);
-    for (std::size_t r = 0; r < survey.runs.size(); ++r)
-      counts[r].data = hits_in_bins(light[r], survey.runs[r].bins);
-    return counts;
   }
 
   // Effects in turn, so that few of them are of many kinds.
@@ -204,18 +137,18 @@ class Trials {
     constexpr int tries = 10;
     std::vector<FlasherRun> flashers;
     for (const RunOfTrials& run : runs_) flashers.push_back(run.run);
-    const Light whole =
-        light_of(base_, outside_stream + static_cast<std::uint64_t>(number) * runs_.size(), &survey);
+    const TrialLight::Hits whole =
+        light_.hits(base_, outside_stream + static_cast<std::uint64_t>(number) * runs_.size(), &survey);
     for (int i = 0; i < tries; ++i) {
       const OutsideEffect outside = draw_outside_effect(number, *base_.detector, flashers, random_);
-      Light light = whole;
-      for (std::size_t r = 0; r < runs_.size(); ++r) outside.apply(light[r], runs_[r].run, random_);
+      TrialLight::Hits hits = whole;
+      for (std::size_t r = 0; r < runs_.size(); ++r) outside.apply(hits[r], runs_[r].run, random_);
       const double significance =
-          (total_neg_llh(survey, counts_of(light, survey)) - right.mean) / right.scatter;
-      if (significance > options_.least)
-        return Full{{{outside.name, outside.text, {}, significance}}, base_, data_of(light)};
+          (total_neg_llh(survey, light_.counts_of(hits, survey)) - right.mean) / right.scatter;
+      if (significance > options_.significance.least)
+        return Full{{{outside.name, outside.text, {}, significance}}, base_, light_.data_of(hits)};
       result_.not_tried[outside.name] =
-          fmt::format("not seen at {} standard deviations: {}", options_.least, outside.text);
+          fmt::format("not seen at {} standard deviations: {}", options_.significance.least, outside.text);
     }
     return {};
   }
@@ -239,7 +172,7 @@ class Trials {
   FullTrial diagnosed(const Full& full, std::size_t number, std::size_t count, const Survey& survey) {
     const FlasherData data =
         full.outside ? *full.outside
-                     : data_of(light_of(full.model, full_stream + number * runs_.size(), &survey));
+                     : light_.data_of(light_.hits(full.model, full_stream + number * runs_.size(), &survey));
     DiagnosisOptions options;
     const LightBudget light = options.light;
     static_cast<RunSettings&>(options) = options_;
@@ -250,44 +183,6 @@ class Trials {
                       [&](double fraction, const std::string& text) {
                         report(fraction, fmt::format("diagnosis {} of {}: {}", number + 1, count, text));
                       });
-  }
-
-  // What changes with the suspect's amplitudes: all parameters but the place of a band.
-  std::vector<IceParameter> changing_parameters(const Suspect& suspect) const {
-    const auto none = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(suspect.amplitudes.size()));
-    std::vector<IceParameter> parameters = fit_parameters(suspect, none, base_);
-    std::erase_if(parameters, is_place_of_band);
-    return parameters;
-  }
-
-  std::vector<SeenAbove> power(const ScoreTester& tester) const {
-    std::map<std::string, std::vector<double>> changes;
-    std::map<std::string, std::vector<IceParameter>> of_effect;  // alike at all places
-    std::vector<SeenAbove> all;
-    for (const TestedSuspect& tested : tester.suspects()) {
-      const Suspect& suspect = *tested.suspect;
-      const double gain = tester.gain_to_be_named(tested, alpha_of_score());
-      const auto [known, is_new] = of_effect.try_emplace(suspect.effect);
-      if (is_new) known->second = changing_parameters(suspect);
-      const std::vector<IceParameter>& parameters = known->second;
-      for (std::size_t i = 0; i < parameters.size(); ++i) {
-        const auto index = static_cast<Eigen::Index>(i);
-        const double of_one = tested.expected_gain(Eigen::VectorXd::Unit(tested.low.size(), index));
-        if (!(of_one > 0)) continue;
-        std::vector<double>& of_parameter = changes[parameters[i].name];
-        if (of_parameter.empty()) all.push_back({suspect.effect, parameters[i].name, parameters[i].unit, 0});
-        of_parameter.push_back(std::sqrt(gain / of_one));
-      }
-    }
-    for (SeenAbove& seen : all) {
-      std::vector<double>& values = changes.at(seen.parameter);
-      std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                       values.end());
-      seen.change = values[values.size() / 2];
-      // Amplitudes of bands are logarithms of their factors.
-      if (seen.effect.ends_with("-layer")) seen.change = std::expm1(seen.change);
-    }
-    return all;
   }
 
   bool is_wanted(const std::string& effect) const {
@@ -303,8 +198,8 @@ class Trials {
                         effect, fmt::join(std::views::keys(by_effect), ", ")));
   }
 
-  // Of each effect some, at places drawn at random, as strong as wanted and as its parameters allow.
-  std::vector<Hidden> draw_hidden(const ScoreTester& tester) {
+  // Of each effect some, and of nothing.
+  std::vector<Hidden> plan_trials(const ScoreTester& tester) {
     ByEffect by_effect;
     for (const TestedSuspect& suspect : tester.suspects())
       by_effect[suspect.suspect->effect].push_back(&suspect);
@@ -314,67 +209,20 @@ class Trials {
       if (!is_wanted(effect)) continue;
       int hid = 0;
       for (int t = 0; t < options_.trials; ++t)
-        if (auto hidden = hide(places, tester)) all.push_back(std::move(*hidden)), ++hid;
+        if (auto hidden = draw_hidden(places, tester, base_, options_.significance, random_))
+          all.push_back(std::move(*hidden)), ++hid;
       if (hid == 0 && options_.trials > 0)
         result_.not_tried[effect] =
-            fmt::format("these runs do not show it at {} standard deviations", options_.least);
+            fmt::format("these runs do not show it at {} standard deviations", options_.significance.least);
     }
     for (int t = 0; t < options_.nothing; ++t) all.push_back({{}, {}, {}, base_});
     return all;
   }
 
-  double uniform(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random_);
-  }
-
-  std::optional<Hidden> hide(const std::vector<const TestedSuspect*>& places, const ScoreTester& tester) {
-    constexpr int tries = 40;
-    for (int i = 0; i < tries; ++i) {
-      const auto index = std::uniform_int_distribution<std::size_t>(0, places.size() - 1)(random_);
-      const TestedSuspect& place = *places[index];
-      Eigen::VectorXd direction(place.low.size());
-      for (double& value : direction) value = std::normal_distribution<double>()(random_);
-      const double wanted = uniform(options_.least, options_.most);
-      const double unit = place.expected_gain(direction);
-      if (!(unit > 0)) continue;
-      const Eigen::VectorXd amplitudes =
-          direction * std::sqrt(tester.gain_of_significance(place, wanted) / unit);
-      if (((amplitudes - place.low).array() < 0).any() || ((place.high - amplitudes).array() < 0).any())
-        continue;
-      try {
-        Hidden hidden;
-        hidden.parameters = fit_parameters(*place.suspect, amplitudes, base_);
-        if (!reaches(place, hidden.parameters, amplitudes)) continue;
-        hidden.effect = {place.suspect->effect, text_of(*place.suspect), {}, wanted, place.suspect->place};
-        for (const IceParameter& p : hidden.parameters) {
-          hidden.numbers.push_back(p.start);
-          hidden.effect.values.emplace_back(p.name, p.start);
-        }
-        hidden.model = with_parameters(base_, hidden.parameters, hidden.numbers);
-        return hidden;
-      } catch (const Error&) {
-        // No physical ice: another draw.
-      }
-    }
-    return {};
-  }
-
-  // Parameters may be cut off at what makes sense.
-  bool reaches(const TestedSuspect& place, const std::vector<IceParameter>& parameters,
-               const Eigen::VectorXd& amplitudes) const {
-    if (place.suspect->place.count("depth")) return std::abs(amplitudes(0)) < std::log(2.5);
-    for (std::size_t i = 0; i < parameters.size(); ++i) {
-      const double is = parameters[i].start - null_number(parameters[i], base_),
-                   wanted = amplitudes(static_cast<Eigen::Index>(i));
-      if (std::abs(is - wanted) > 0.05 * std::abs(wanted)) return false;
-    }
-    return true;
-  }
-
   BlindTrial trial(const Hidden& hidden, std::size_t number, const Survey& survey,
                    const ScoreTester& tester) const {
     const SurveyCounts counts =
-        counts_of(light_of(hidden.model, trial_stream + number * runs_.size(), &survey), survey);
+        light_.counts_of(light_.hits(hidden.model, trial_stream + number * runs_.size(), &survey), survey);
     const ScoreTest test = tester.test(counts, options_.floor);
     BlindTrial trial;
     trial.hidden = hidden.effect;
@@ -394,7 +242,7 @@ class Trials {
 
   void tell_values(const Score& score, const SurveyCounts& counts, std::size_t number, const Survey& survey,
                    const ScoreTester& tester, BlindTrial& trial) const {
-    const std::vector<IceParameter> parameters = changing_parameters(score.suspect);
+    const std::vector<IceParameter> parameters = changing_parameters(score.suspect, base_);
     const auto numbers_at = [&](const Eigen::VectorXd& amplitudes) {
       std::vector<double> numbers;
       for (const IceParameter& p : parameters)
@@ -403,8 +251,8 @@ class Trials {
       return numbers;
     };
     const auto light = [&](const Eigen::VectorXd& amplitudes) {
-      return light_in_bins(with_parameters(base_, parameters, numbers_at(amplitudes)),
-                           value_stream + number * runs_.size(), survey);
+      return light_.in_bins(with_parameters(base_, parameters, numbers_at(amplitudes)),
+                            value_stream + number * runs_.size(), survey);
     };
     ScoreValues values{score.amplitudes, score.errors};
     try {
@@ -421,6 +269,7 @@ class Trials {
   const BlindTrialOptions& options_;
   const Progress& progress_;
   const TrialRecord& record_;
+  const TrialLight light_;
   std::mt19937_64 random_;
   BlindTrials result_;
   double done_ = 0, all_ = 1;  // in fast trials, for the progress bar
@@ -437,7 +286,7 @@ BlindTrials run_blind_trials(const Model& base, const std::vector<RunOfTrials>& 
                              const TrialRecord& record) {
   check(static_cast<const RunSettings&>(options));
   if (runs.empty()) throw UsageError("blind trials need at least one flasher run");
-  if (!(options.least > 0 && options.most >= options.least))
+  if (!(options.significance.least > 0 && options.significance.most >= options.significance.least))
     throw UsageError("significances must be positive, the smaller one first");
   for (const std::string& effect : options.effects) find_effect(effect);  // throws for those that are none
   const auto start = std::chrono::steady_clock::now();

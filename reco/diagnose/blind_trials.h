@@ -11,9 +11,11 @@
 #include <vector>
 
 #include "data/base/progress.h"
-#include "data/flasher_run.h"
 #include "propagation/model.h"
 #include "reco/diagnose/full_trials.h"
+#include "reco/diagnose/hidden_draws.h"
+#include "reco/diagnose/seen_above.h"
+#include "reco/diagnose/trial_light.h"
 #include "reco/ice_fit/run_plan.h"
 
 namespace floe {
@@ -31,18 +33,11 @@ struct BlindTrialOptions : RunSettings {
   int pairs = 0;         // whole diagnoses of two effects hidden together
   int outside = 0;       // and of what the catalogue does not have (outside_effects.h)
   int folds = 3;         // of whole diagnoses
-  // Expected significance of what is hidden, in standard deviations for all places of its effect: what the
-  // diagnosis would say, and less than its place alone would be worth.
-  double least = 5, most = 12;
+  SignificanceRange significance{5, 12};  // of what is hidden
   double alpha = 0.01, floor = 0.005;
   int draws = 300;
   // Of the survey (see PairPlan): it serves all trials, so that its slopes may be good.
   double pair_light = 0.4;
-};
-
-struct RunOfTrials {
-  FlasherRun run;      // its photons are those of all flashes together
-  double repeats = 1;  // of the flash, each with noise of its own
 };
 
 struct BlindTrial {
@@ -55,12 +50,6 @@ struct BlindTrial {
   std::vector<double> found, errors;
 
   bool right() const;
-};
-
-// The least value of a parameter that would be named every other time.
-struct SeenAbove {
-  std::string effect, parameter, unit;
-  double change = 0;  // from the base's own value; the median of all places
 };
 
 struct BlindTrials {

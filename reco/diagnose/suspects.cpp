@@ -243,6 +243,13 @@ std::vector<IceParameter> fit_parameters(const Suspect& suspect, const Eigen::Ve
   return parameters;
 }
 
+std::vector<IceParameter> changing_parameters(const Suspect& suspect, const Model& base) {
+  const auto none = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(suspect.amplitudes.size()));
+  std::vector<IceParameter> parameters = fit_parameters(suspect, none, base);
+  std::erase_if(parameters, is_place_of_band);
+  return parameters;
+}
+
 double large_change(Kind kind) {
   switch (kind) {
     case Kind::string_time:

@@ -60,6 +60,9 @@ std::vector<Suspect> suspects_of(const Survey& survey, const SuspectPlan& plan);
 std::vector<IceParameter> fit_parameters(const Suspect& suspect, const Eigen::VectorXd& amplitudes,
                                          const Model& base);
 
+// Those that change with the suspect's amplitudes, one for each: all but the place of a band.
+std::vector<IceParameter> changing_parameters(const Suspect& suspect, const Model& base);
+
 // The number of such a parameter at which the effect changes nothing: the base's own.
 double null_number(const IceParameter& parameter, const Model& base);
 // Depth and width of a band, at which no number changes nothing.
