@@ -149,7 +149,6 @@ Json power_json(const BlindTrials& trials) {
   return json;
 }
 
-// A run of many flashes has their light together.
 std::vector<RunOfTrials> runs_of(const std::string& file) {
   std::vector<RunOfTrials> runs;
   for (const RunToSimulate& run : read_flasher_runs(file)) {
@@ -159,7 +158,6 @@ std::vector<RunOfTrials> runs_of(const std::string& file) {
                                    run.run.module.string, run.run.module.dom),
                        "widths of beam and pulse, which are all that trials simulate");
     runs.push_back({run.run, static_cast<double>(run.repeats)});
-    runs.back().run.photons *= run.repeats;
   }
   return runs;
 }

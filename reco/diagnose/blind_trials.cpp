@@ -125,24 +125,25 @@ class Trials {
       if (auto pair = draw_pair(effects)) plan.push_back(std::move(*pair));
     if (options_.outside == 0) return plan;
     const ExpectedFit right = expected_fit(survey, draws());
+    std::vector<FlasherRun> flashers;
+    for (const RunOfTrials& run : runs_) flashers.push_back(run.run);
     for (int t = 0; t < options_.outside; ++t)
-      if (auto outside = draw_outside(t, survey, right)) plan.push_back(std::move(*outside));
+      if (auto outside = draw_outside(t, flashers, survey, right)) plan.push_back(std::move(*outside));
     for (const Full& full : plan)
       if (full.outside) result_.not_tried.erase(full.hidden.front().effect);
     return plan;
   }
 
   // As visible as other effects have to be.
-  std::optional<Full> draw_outside(int number, const Survey& survey, const ExpectedFit& right) {
+  std::optional<Full> draw_outside(int number, const std::vector<FlasherRun>& flashers, const Survey& survey,
+                                   const ExpectedFit& right) {
     constexpr int tries = 10;
-    std::vector<FlasherRun> flashers;
-    for (const RunOfTrials& run : runs_) flashers.push_back(run.run);
     const TrialLight::Hits whole =
         light_.hits(base_, outside_stream + static_cast<std::uint64_t>(number) * runs_.size(), &survey);
     for (int i = 0; i < tries; ++i) {
       const OutsideEffect outside = draw_outside_effect(number, *base_.detector, flashers, random_);
       TrialLight::Hits hits = whole;
-      for (std::size_t r = 0; r < runs_.size(); ++r) outside.apply(hits[r], runs_[r].run, random_);
+      for (std::size_t r = 0; r < runs_.size(); ++r) outside.apply(hits[r], flashers[r], random_);
       const double significance =
           (total_neg_llh(survey, light_.counts_of(hits, survey)) - right.mean) / right.scatter;
       if (significance > options_.significance.least)

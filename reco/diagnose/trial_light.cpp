@@ -1,23 +1,10 @@
 #include "reco/diagnose/trial_light.h"
 
-#include <fmt/format.h>
-
 namespace floe {
 
-namespace {
-
-Eigen::VectorXd hits_in_bins(const std::vector<SimulatedHit>& hits, const RunBins& bins) {
-  Eigen::VectorXd counts = Eigen::VectorXd::Zero(bins.size());
-  for (const SimulatedHit& hit : hits)
-    if (const int bin = bins.bin(hit.module, hit.time); bin >= 0) counts(bin) += 1;
-  return counts;
-}
-
-}  // namespace
-
 RunRequest TrialLight::request(std::size_t run, std::uint64_t stream) const {
-  const FlasherRun& flasher = runs_[run].run;
-  return {flasher, flasher.photons, settings_.oversize, settings_.seed, stream + run, settings_.threads};
+  return {runs_[run].run, runs_[run].photons(), settings_.oversize,
+          settings_.seed, stream + run,         settings_.threads};
 }
 
 std::vector<SimulatedHit> TrialLight::hits_of(const Model& model, std::size_t run, std::uint64_t stream,
@@ -31,24 +18,24 @@ std::vector<SimulatedHit> TrialLight::hits_of(const Model& model, std::size_t ru
 TrialLight::Hits TrialLight::hits(const Model& model, std::uint64_t stream, const Survey* survey) const {
   Hits hits;
   for (std::size_t r = 0; r < runs_.size(); ++r)
-    hits.push_back(hits_of(model, r, stream, runs_[r].run.photons, survey));
+    hits.push_back(hits_of(model, r, stream, runs_[r].photons(), survey));
   return hits;
 }
 
 LightInBins TrialLight::in_bins(const Model& model, std::uint64_t stream, const Survey& survey) const {
   LightInBins light;
   for (std::size_t r = 0; r < runs_.size(); ++r)
-    light.push_back(
-        hits_in_bins(hits_of(model, r, stream, survey.runs[r].photons, &survey), survey.runs[r].bins));
+    light.push_back(survey.runs[r].bins.counts(hits_of(model, r, stream, survey.runs[r].photons, &survey)));
   return light;
 }
 
 FlasherData TrialLight::data_of(const Hits& hits) const {
   std::vector<Event> events;
+  FlasherRunNames names;
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     const auto& [run, repeats] = runs_[r];
     Event event;
-    event.id = fmt::format("{},{}", run.module.string, run.module.dom);
+    event.id = names.next(run.module);
     event.repeats = repeats;
     event.flasher = run;
     event.flasher->oversize = settings_.oversize;
@@ -63,8 +50,7 @@ FlasherData TrialLight::data_of(const Hits& hits) const {
 
 SurveyCounts TrialLight::counts_of(const Hits& hits, const Survey& survey) {
   SurveyCounts counts = measured_counts(survey);
-  for (std::size_t r = 0; r < survey.runs.size(); ++r)
-    counts[r].data = hits_in_bins(hits[r], survey.runs[r].bins);
+  for (std::size_t r = 0; r < survey.runs.size(); ++r) counts[r].data = survey.runs[r].bins.counts(hits[r]);
   return counts;
 }
 

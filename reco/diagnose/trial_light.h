@@ -16,8 +16,10 @@
 namespace floe {
 
 struct RunOfTrials {
-  FlasherRun run;      // its photons are those of all flashes together
+  FlasherRun run;
   double repeats = 1;  // of the flash, each with noise of its own
+
+  double photons() const { return run.photons * repeats; }
 };
 
 class TrialLight {

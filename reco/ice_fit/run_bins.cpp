@@ -52,6 +52,13 @@ int RunBins::bin(std::uint32_t module, double time) const {
   return r.first + static_cast<int>(above - r.inner_edges.begin());
 }
 
+Eigen::VectorXd RunBins::counts(std::span<const SimulatedHit> hits, double delay) const {
+  Eigen::VectorXd counts = Eigen::VectorXd::Zero(size_);
+  for (const SimulatedHit& hit : hits)
+    if (const int at = bin(hit.module, hit.time + delay); at >= 0) counts(at) += 1;
+  return counts;
+}
+
 void RunBins::add_spread(std::uint32_t module, double time, double width, double charge,
                          Eigen::VectorXd& counts) const {
   const int receiver = receiver_of_[module];

@@ -35,6 +35,8 @@ class RunBins {
   std::vector<int> receiver_of_bin() const;  // by bin: index into receivers()
   // The bin of a hit; -1 when its module is not a receiver.
   int bin(std::uint32_t module, double time) const;
+  // Hits by bin, each as if it came `delay` later [ns].
+  Eigen::VectorXd counts(std::span<const SimulatedHit> hits, double delay = 0) const;
   // Adds a pulse whose light is spread over `width` [ns] to counts by bin; nothing when its module is no
   // receiver.
   void add_spread(std::uint32_t module, double time, double width, double charge,

@@ -12,13 +12,6 @@ namespace {
 constexpr double time_step = 1, finest_step = 0.125;  // [ns]
 constexpr int most_steps = 20;
 
-Eigen::VectorXd simulated_counts(const SimulatedRun& simulated, const RunBins& bins, double time_zero) {
-  Eigen::VectorXd counts = Eigen::VectorXd::Zero(bins.size());
-  for (const SimulatedHit& hit : simulated.hits)
-    if (const int bin = bins.bin(hit.module, hit.time + time_zero); bin >= 0) counts(bin) += 1;
-  return counts;
-}
-
 // At one brightness: value, slope and curvature in its logarithm.
 BinLikelihood sum_at(const ComparedCounts& counts, double brightness, double model_error) {
   BinLikelihood sum;
@@ -60,8 +53,8 @@ class Comparison {
 
   RunMeasurement at(double time_zero) const {
     RunMeasurement measured = measure_counts(
-        {data_, simulated_counts(simulated_, bins_, time_zero) / dispersion_, photons_ / dispersion_},
-        brightness_, model_error_);
+        {data_, bins_.counts(simulated_.hits, time_zero) / dispersion_, photons_ / dispersion_}, brightness_,
+        model_error_);
     measured.nuisances.time_zero = time_zero;
     return measured;
   }
