@@ -27,7 +27,11 @@ constexpr double same_place = 8, same_direction = 25 * degree;  // [m]
 // A minimum so much worse in -ln L, by this many errors as well, is left behind.
 constexpr double hopeless = 8, hopeless_errors = 3;
 constexpr PhotonNeed first_contest{3, 2e5, 1e6};
-constexpr double slack_of_first_contest = 0.5;  // of the best -ln L: not all ends have settled
+constexpr double slack_of_first_contest = 0.5;   // of the best -ln L: not all ends have settled
+constexpr double slack_of_second_contest = 0.05;  // they nearly have
+// What an end that has not settled is off in a bright module near by would drown all that the others say: it
+// counts as a model error.
+constexpr double unsettled_error = 0.2;
 constexpr int contest_parts = 4;                // independent simulations of each minimum
 constexpr std::uint64_t contest_stream = std::uint64_t{1} << 41;
 
@@ -134,9 +138,9 @@ bool Search::same_minimum(const LightCentre& a, const LightCentre& b) {
 }
 
 // All of one contest have the same random numbers.
-Evaluation Search::measure(const LightCentre& light, double oversize, double photons) {
+Evaluation Search::measure(const LightCentre& light, double oversize, double photons, double model_error) {
   Evaluation value = evaluate_cascade(light_, data_, cascade_of(light, options_.kind), photons, oversize,
-                                      contest_parts, contest_stream + 100 * contests_, options_.model_error);
+                                      contest_parts, contest_stream + 100 * contests_, model_error);
   for (const LightSample& sample : value.samples) result_.count_simulation(sample.propagated);
   value.samples.clear();
   return value;
@@ -162,7 +166,9 @@ std::vector<Search::Minimum> Search::contest(std::span<const RoundEnd> ends, con
   const LightCentre& first = minima.front().end.light;
   const double oversize = training_oversize(data_, first, options_.oversize);
   const double photons = photons_for(cascade_of(first, options_.kind), oversize, need);
-  for (Minimum& minimum : minima) minimum.value = measure(minimum.end.light, oversize, photons);
+  const double model_error = std::max(options_.model_error, unsettled_error);
+  for (Minimum& minimum : minima)
+    minimum.value = measure(minimum.end.light, oversize, photons, model_error);
   ++contests_;
   std::sort(minima.begin(), minima.end(),
             [](const Minimum& a, const Minimum& b) { return a.value.neg_llh < b.value.neg_llh; });
@@ -274,7 +280,7 @@ std::vector<Search::Minimum> Search::around_only_string(std::vector<Minimum> min
   for (const Minimum& minimum : contest(alike, {3, 2e5, 2e6}, 0.5, most_around_string))
     if (!same_minimum(minimum.end.light, best))
       ends.push_back(settle(minimum.end.light, rough_stage(minimum.end.light), most_rough_rounds, true));
-  return contest(ends, {10, 2e5, 1e7}, 0.2, most_around_string);
+  return contest(ends, {10, 2e5, 1e7}, slack_of_second_contest, most_around_string);
 }
 
 // Large steps first. -ln L of ends that have not yet settled is large, and differences mean as little: the
@@ -290,7 +296,7 @@ Search::End Search::from_starts(std::span<const LightCentre> starts) {
   ends.clear();
   for (const Minimum& minimum : minima)
     ends.push_back(settle(minimum.end.light, rough_stage(minimum.end.light), most_rough_rounds, true));
-  minima = around_only_string(contest(ends, {10, 2e5, 1e7}, 0.2));
+  minima = around_only_string(contest(ends, {10, 2e5, 1e7}, slack_of_second_contest));
   if (minima.size() < 2) return finish(sharpen(minima.front().end));
   return best_of(minima);
 }
@@ -331,7 +337,7 @@ Search::Ranking Search::tell_apart(std::span<const End> ends) {
 Search::Ranking Search::tell_apart(std::span<const End> ends, const PhotonNeed& need) {
   const double photons = photons_for(cascade_of(ends.front().light, options_.kind), options_.oversize, need);
   std::vector<Evaluation> values;
-  for (const End& end : ends) values.push_back(measure(end.light, options_.oversize, photons));
+  for (const End& end : ends) values.push_back(measure(end.light, options_.oversize, photons, options_.model_error));
   ++contests_;
   const auto worse = [&](std::size_t one, std::size_t other) {
     return worse_by(values[one], values[other], options_.model_error, data_.charge_dispersion());

@@ -18,7 +18,8 @@ constexpr double acceptable_pull = 1.5;  // of the last step of all
 // they are taught with more photons, up to so many times the usual.
 constexpr double least_fresh_share = 0.2, acceptable_loss = 1.3, most_training = 6;
 constexpr double acceptable_dispersion = 1.8, least_reach = 0.3;
-constexpr double last_training = 2.5, last_judging = 2.5;  // photons of the last calibration, times the usual
+// Photons of the last calibration, times the usual; as many more for the weights as they lose more than this.
+constexpr double last_training = 2.5, last_judging = 2.5, last_loss = 1.1;
 // Photons that judge, of bright cascades and in each fold: the usual, and at most with `last_judging`.
 constexpr double most_judging = 3.2e7, most_last_judging = 5e7;
 constexpr double close_enough = 1.2;  // last steps, in steps of the narrow design
@@ -94,7 +95,8 @@ void Search::end_without_solution(End& end, const CalibrationNeed& need,
 // that the data do not make.
 Search::End Search::refined(const End& end, CalibrationNeed need) {
   End last = end;
-  need.training = std::max(need.training, last_training);
+  const double wanted = need.training * (end.weight_loss() - 1) / (last_loss - 1);
+  need.training = std::clamp(wanted, std::max(need.training, last_training), most_training);
   need.judging = last_judging;
   calibrate(last, need);
   return last.unsolved || !(last.pull < acceptable_pull) ? end : last;
