@@ -42,14 +42,14 @@ struct ReconstructOptions {
 };
 
 // What is kept of one event: everything that is printed and written.
-struct EventResult {
+struct FittedEvent {
   Json json;          // as it stands in the output
   std::string words;  // of the fit, for people
   bool usable = false, track_like = false;
   std::optional<SkyMap> sky_map;
 };
 
-EventResult result_of(const Event& event, const CascadeFit& fit) {
+FittedEvent result_of(const Event& event, const CascadeFit& fit) {
   return {{{"event", event.id},
            {"status", name_of(fit.status)},
            {"reason", fit.reason},
@@ -82,7 +82,7 @@ SkyMap sky_map_of(const Json& json) {
   return map;
 }
 
-Json row_of(std::size_t index, const EventResult& result) {
+Json row_of(std::size_t index, const FittedEvent& result) {
   return {{"index", index},
           {"result", result.json},
           {"words", result.words},
@@ -91,8 +91,8 @@ Json row_of(std::size_t index, const EventResult& result) {
           {"sky_map", result.sky_map ? to_json(*result.sky_map) : Json()}};
 }
 
-EventResult result_of(const Json& row) {
-  EventResult result{row.at("result"),
+FittedEvent result_of(const Json& row) {
+  FittedEvent result{row.at("result"),
                      row.at("words").get<std::string>(),
                      row.at("usable").get<bool>(),
                      row.at("track_like").get<bool>(),
@@ -137,7 +137,7 @@ class EventRun {
       options.threads = threads;
       const Event& event = events_[left_[i]];
       const CascadeFit fit = fit_cascade(model_, event, options, events_.size() == 1 ? progress : Progress());
-      EventResult result = result_of(event, fit);
+      FittedEvent result = result_of(event, fit);
       if (journal_) journal_->append(row_of(left_[i], result));
       const std::lock_guard lock(mutex_);
       results_[left_[i]] = std::move(result);
@@ -176,7 +176,7 @@ class EventRun {
   // What is known of the events that are next in order.
   void say() {
     for (; said_ < results_.size() && results_[said_]; ++said_) {
-      const EventResult& result = *results_[said_];
+      const FittedEvent& result = *results_[said_];
       const std::string& id = events_[said_].id;
       if (result.track_like)
         fmt::print(stderr, "floe: warning: event {}: {}\n", id, result.json["reason"].get<std::string>());
@@ -190,7 +190,7 @@ class EventRun {
   const Model& model_;
   const FitOptions& fit_;
   bool quiet_;
-  std::vector<std::optional<EventResult>> results_;
+  std::vector<std::optional<FittedEvent>> results_;
   std::vector<std::size_t> left_;
   std::unique_ptr<RowJournal> journal_;
   std::mutex mutex_;

@@ -188,7 +188,7 @@ std::vector<EventResult> simulate_parts(EventSimulation& simulation, const Parti
   return results;
 }
 
-void copy_events(const std::filesystem::path& part, EventFileWriter& writer) {
+void copy_part(const std::filesystem::path& part, EventFileWriter& writer) {
   const EventFileReader reader(part);
   for (std::size_t e = 0; e < reader.size(); ++e) {
     const Event event = reader.read(e);
@@ -215,7 +215,7 @@ std::vector<EventResult> simulate_all(const SimulateOptions& options, EventSimul
                partition.parts(), options.file);
   const std::vector<EventResult> results = simulate_parts(simulation, partition, provenance, parts);
   report(results);
-  parts.finish(provenance, copy_events);
+  parts.finish(provenance, copy_part);
   return results;
 }
 

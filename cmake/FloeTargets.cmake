@@ -17,6 +17,14 @@ if(FLOE_SANITIZE)
   target_link_options(floe_options INTERFACE -fsanitize=${FLOE_SANITIZE})
 endif()
 
+# Files of a target compiled together, so many at a time: headers are read once for all of them. Names in
+# anonymous namespaces must then differ between the files.
+function(floe_compile_together target files_at_a_time)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${files_at_a_time})
+  # Said of types of anonymous namespaces in any file that another one includes.
+  target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+endfunction()
+
 # floe_room(NAME SOURCES ... DEPENDS ...): a static library floe::NAME. Headers are included by
 # their path from the project's root, e.g. "geometry/detector.h".
 function(floe_room name)

@@ -27,12 +27,12 @@ constexpr double same_place = 8, same_direction = 25 * degree;  // [m]
 // A minimum so much worse in -ln L, by this many errors as well, is left behind.
 constexpr double hopeless = 8, hopeless_errors = 3;
 constexpr PhotonNeed first_contest{3, 2e5, 1e6};
-constexpr double slack_of_first_contest = 0.5;   // of the best -ln L: not all ends have settled
+constexpr double slack_of_first_contest = 0.5;    // of the best -ln L: not all ends have settled
 constexpr double slack_of_second_contest = 0.05;  // they nearly have
 // What an end that has not settled is off in a bright module near by would drown all that the others say: it
 // counts as a model error.
 constexpr double unsettled_error = 0.2;
-constexpr int contest_parts = 4;                // independent simulations of each minimum
+constexpr int contest_parts = 4;  // independent simulations of each minimum
 constexpr std::uint64_t contest_stream = std::uint64_t{1} << 41;
 
 std::string words(const CascadeParameters& c) {
@@ -167,8 +167,7 @@ std::vector<Search::Minimum> Search::contest(std::span<const RoundEnd> ends, con
   const double oversize = training_oversize(data_, first, options_.oversize);
   const double photons = photons_for(cascade_of(first, options_.kind), oversize, need);
   const double model_error = std::max(options_.model_error, unsettled_error);
-  for (Minimum& minimum : minima)
-    minimum.value = measure(minimum.end.light, oversize, photons, model_error);
+  for (Minimum& minimum : minima) minimum.value = measure(minimum.end.light, oversize, photons, model_error);
   ++contests_;
   std::sort(minima.begin(), minima.end(),
             [](const Minimum& a, const Minimum& b) { return a.value.neg_llh < b.value.neg_llh; });
@@ -337,7 +336,8 @@ Search::Ranking Search::tell_apart(std::span<const End> ends) {
 Search::Ranking Search::tell_apart(std::span<const End> ends, const PhotonNeed& need) {
   const double photons = photons_for(cascade_of(ends.front().light, options_.kind), options_.oversize, need);
   std::vector<Evaluation> values;
-  for (const End& end : ends) values.push_back(measure(end.light, options_.oversize, photons, options_.model_error));
+  for (const End& end : ends)
+    values.push_back(measure(end.light, options_.oversize, photons, options_.model_error));
   ++contests_;
   const auto worse = [&](std::size_t one, std::size_t other) {
     return worse_by(values[one], values[other], options_.model_error, data_.charge_dispersion());
