@@ -26,7 +26,7 @@ constexpr std::size_t most_starts = 3;
 constexpr double same_place = 8, same_direction = 25 * degree;  // [m]
 // A minimum so much worse in -ln L, by this many errors as well, is left behind.
 constexpr double hopeless = 8, hopeless_errors = 3;
-constexpr PhotonNeed first_contest{3, 2e5, 1e6};
+constexpr PhotonNeed first_contest{3, 2e5, 1e6}, second_contest{10, 2e5, 1e7};
 constexpr double slack_of_first_contest = 0.5;    // of the best -ln L: not all ends have settled
 constexpr double slack_of_second_contest = 0.05;  // they nearly have
 // What an end that has not settled is off in a bright module near by would drown all that the others say: it
@@ -276,10 +276,10 @@ std::vector<Search::Minimum> Search::around_only_string(std::vector<Minimum> min
     const LightCentre turned = turned_about(*axis, 2 * pi * i / turns, best);
     add(turned), add(mirrored_about(*axis, turned));
   }
-  for (const Minimum& minimum : contest(alike, {3, 2e5, 2e6}, 0.5, most_around_string))
+  for (const Minimum& minimum : contest(alike, {3, 2e5, 2e6}, slack_of_first_contest, most_around_string))
     if (!same_minimum(minimum.end.light, best))
       ends.push_back(settle(minimum.end.light, rough_stage(minimum.end.light), most_rough_rounds, true));
-  return contest(ends, {10, 2e5, 1e7}, slack_of_second_contest, most_around_string);
+  return contest(ends, second_contest, slack_of_second_contest, most_around_string);
 }
 
 // Large steps first. -ln L of ends that have not yet settled is large, and differences mean as little: the
@@ -295,7 +295,7 @@ Search::End Search::from_starts(std::span<const LightCentre> starts) {
   ends.clear();
   for (const Minimum& minimum : minima)
     ends.push_back(settle(minimum.end.light, rough_stage(minimum.end.light), most_rough_rounds, true));
-  minima = around_only_string(contest(ends, {10, 2e5, 1e7}, slack_of_second_contest));
+  minima = around_only_string(contest(ends, second_contest, slack_of_second_contest));
   if (minima.size() < 2) return finish(sharpen(minima.front().end));
   return best_of(minima);
 }
