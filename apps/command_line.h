@@ -1,7 +1,7 @@
 // The command line as a whole: what was typed, and wrong use explained.
 #pragma once
 
-#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>
 #include <string>
 
 namespace floe {

@@ -2,7 +2,7 @@
 // floe.cpp. `command_line` is what was typed; it goes into output files.
 #pragma once
 
-#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>
 #include <string>
 
 namespace floe {

@@ -1,7 +1,7 @@
 // Options that several subcommands share, so that they mean the same everywhere.
 #pragma once
 
-#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>

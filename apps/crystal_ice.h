@@ -1,7 +1,7 @@
 // floe crystal --into: an ice model whose birefringence is that of given grains.
 #pragma once
 
-#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 

@@ -1,7 +1,7 @@
 // Event files as the command line names them.
 #pragma once
 
-#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 

@@ -1,7 +1,7 @@
 // Options and output of the commands that fit cascades.
 #pragma once
 
-#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>

@@ -1,8 +1,7 @@
 // floe: light in birefringent glacial ice. Each subcommand is a file beside this one.
 #include <fmt/format.h>
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 #include <memory>

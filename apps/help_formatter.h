@@ -1,8 +1,7 @@
 // How --help looks: one option an entry, text wrapped, defaults in words.
 #pragma once
 
-#include <CLI/App.hpp>
-#include <CLI/Formatter.hpp>
+#include <CLI/CLI.hpp>
 #include <string>
 
 namespace floe {

@@ -2,7 +2,7 @@
 // that a laboratory measured of a flasher.
 #pragma once
 
-#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 
