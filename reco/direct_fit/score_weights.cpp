@@ -51,7 +51,7 @@ ScoreWeights::ScoreWeights(const EventData& data, const Emulator& emulator, doub
                                        : Vector7(values[i].gradient / variance));
     by_time_.push_back(values[i].gradient(5));
   }
-  weaken_modules(judges);
+  weaken_modules(judges, all_repeats);
   for_each_module([&](std::size_t begin, std::size_t end) { distrust_module(begin, end, position_error); });
 }
 
@@ -73,19 +73,20 @@ void ScoreWeights::for_each_module(Do what) const {
 }
 
 // Very near modules see light change in ways that the emulator cannot follow. Where simulations that no
-// weight knows scatter in a module's sums by more than their counts explain, its weights are reduced.
-void ScoreWeights::weaken_modules(std::span<const LightSample* const> judges) {
+// weight knows scatter in a module's sums by more than their counts explain, what finite simulation adds to the
+// variance is that much larger for it.
+void ScoreWeights::weaken_modules(std::span<const LightSample* const> judges, double all_repeats) {
   std::vector<std::vector<double>> gaps;
   for (const LightSample* sample : judges) {
     const Vector7 place = emulator_.frame().of(light_centre(sample->cascade, emulator_.settings().kind));
     gaps.push_back(simulation_gaps(data_, emulator_, *sample, place, sample->cascade.time));
   }
-  for_each_module([&](std::size_t begin, std::size_t end) { weaken_module(begin, end, judges, gaps); });
+  for_each_module([&](std::size_t begin, std::size_t end) { weaken_module(begin, end, judges, gaps, all_repeats); });
 }
 
 void ScoreWeights::weaken_module(std::size_t begin, std::size_t end,
                                  std::span<const LightSample* const> judges,
-                                 std::span<const std::vector<double>> gaps) {
+                                 std::span<const std::vector<double>> gaps, double all_repeats) {
   const Emulator::Bin& first = emulator_.bins()[begin];
   if (first.saturated) return;
   Vector7 found = Vector7::Zero(), poisson = Vector7::Constant(1e-300);
@@ -101,8 +102,9 @@ void ScoreWeights::weaken_module(std::size_t begin, std::size_t end,
     found += judges[k]->repeats * sum.cwiseAbs2() / double(gaps.size());
   }
   const double scatter = found.cwiseQuotient(poisson).maxCoeff();
-  if (scatter > usual_scatter)
-    for (std::size_t i = begin; i < end; ++i) weights_[i] *= usual_scatter / scatter;
+  if (scatter <= usual_scatter) return;
+  const double finite = data_.repeats() / all_repeats;
+  for (std::size_t i = begin; i < end; ++i) weights_[i] *= (1 + finite) / (1 + finite * scatter);
 }
 
 // The emulator is not exact over the uncertainty of the place: one bright module may fix its time to 0.1

@@ -32,9 +32,9 @@ class ScoreWeights {
   Matrix7 poisson_variance() const;
 
  private:
-  void weaken_modules(std::span<const LightSample* const> judges);
+  void weaken_modules(std::span<const LightSample* const> judges, double all_repeats);
   void weaken_module(std::size_t begin, std::size_t end, std::span<const LightSample* const> judges,
-                     std::span<const std::vector<double>> gaps);
+                     std::span<const std::vector<double>> gaps, double all_repeats);
   void distrust_module(std::size_t begin, std::size_t end, double position_error);
   template <class Do>
   void for_each_module(Do what) const;

@@ -26,6 +26,11 @@ constexpr double close_enough = 1.2;  // last steps, in steps of the narrow desi
 // [photoelectrons] expected: hardly any module stays dark.
 constexpr double surely_seen = 4;
 
+// What weights lose falls with the photons that teach them.
+double training_to_lose(double acceptable, double loss, double training) {
+  return training * (loss - 1) / (acceptable - 1);
+}
+
 }  // namespace
 
 // After all calibrations, when none but the first, on their way, led out of one minimum.
@@ -95,8 +100,8 @@ void Search::end_without_solution(End& end, const CalibrationNeed& need,
 // that the data do not make.
 Search::End Search::refined(const End& end, CalibrationNeed need) {
   End last = end;
-  const double wanted = need.training * (end.weight_loss() - 1) / (last_loss - 1);
-  need.training = std::clamp(wanted, std::max(need.training, last_training), most_training);
+  need.training = std::clamp(training_to_lose(last_loss, end.weight_loss(), need.training),
+                             std::max(need.training, last_training), most_training);
   need.judging = last_judging;
   calibrate(last, need);
   return last.unsolved || !(last.pull < acceptable_pull) ? end : last;
@@ -165,10 +170,11 @@ void Search::calibrate(End& end, CalibrationNeed& need) {
     need.reach = std::max(least_reach, 0.6 * need.reach);
     return;
   }
-  // What weights lose falls with the photons that teach them.
   if (!enough_light)
-    need.training = std::min(
-        most_training, need.training * std::max(1.5, (solution.weight_loss - 1) / (acceptable_loss - 1)));
+    need.training =
+        std::min(most_training,
+                 std::max(1.5 * need.training,
+                          training_to_lose(acceptable_loss, solution.weight_loss, need.training)));
   if (stays) return;
   // The emulators' errors, which a search begins with, may be far too small.
   const PlaceErrors now = place_errors(solution.data_covariance);
