@@ -34,7 +34,7 @@ std::vector<double> simulation_gaps(const EventData& data, const Emulator& emula
 
 ScoreWeights::ScoreWeights(const EventData& data, const Emulator& emulator, double all_repeats,
                            std::span<const LightSample* const> judges, double position_error)
-    : data_(data), emulator_(emulator) {
+    : data_(data), emulator_(emulator), finite_(data.repeats() / all_repeats) {
   std::vector<Emulator::Evaluation> values;
   emulator_.evaluate(Vector7::Zero(), values);
   const double error = emulator_.settings().model_error;
@@ -44,14 +44,14 @@ ScoreWeights::ScoreWeights(const EventData& data, const Emulator& emulator, doub
     means_.push_back(mean);
     // What the emulator cannot follow counts against a bin, as in the emulated likelihood.
     const double unknown = error * error + 1 / emulator_.bins()[i].effective_counts;
-    const double variance = 1 + data_.repeats() / all_repeats + unknown * mean;
+    const double variance = 1 + finite_ + unknown * mean;
     relative_variance_.push_back(variance);
     weights_.push_back(bin.left_out    ? Vector7::Zero()
                        : bin.saturated ? values[i].gradient
                                        : Vector7(values[i].gradient / variance));
     by_time_.push_back(values[i].gradient(5));
   }
-  weaken_modules(judges, all_repeats);
+  weaken_modules(judges);
   for_each_module([&](std::size_t begin, std::size_t end) { distrust_module(begin, end, position_error); });
 }
 
@@ -73,20 +73,20 @@ void ScoreWeights::for_each_module(Do what) const {
 }
 
 // Very near modules see light change in ways that the emulator cannot follow. Where simulations that no
-// weight knows scatter in a module's sums by more than their counts explain, what finite simulation adds to the
-// variance is that much larger for it.
-void ScoreWeights::weaken_modules(std::span<const LightSample* const> judges, double all_repeats) {
+// weight knows scatter in a module's sums by more than their counts explain, what finite simulation adds to
+// the variance is that much larger for it: scatter that many photons average out does no harm.
+void ScoreWeights::weaken_modules(std::span<const LightSample* const> judges) {
   std::vector<std::vector<double>> gaps;
   for (const LightSample* sample : judges) {
     const Vector7 place = emulator_.frame().of(light_centre(sample->cascade, emulator_.settings().kind));
     gaps.push_back(simulation_gaps(data_, emulator_, *sample, place, sample->cascade.time));
   }
-  for_each_module([&](std::size_t begin, std::size_t end) { weaken_module(begin, end, judges, gaps, all_repeats); });
+  for_each_module([&](std::size_t begin, std::size_t end) { weaken_module(begin, end, judges, gaps); });
 }
 
 void ScoreWeights::weaken_module(std::size_t begin, std::size_t end,
                                  std::span<const LightSample* const> judges,
-                                 std::span<const std::vector<double>> gaps, double all_repeats) {
+                                 std::span<const std::vector<double>> gaps) {
   const Emulator::Bin& first = emulator_.bins()[begin];
   if (first.saturated) return;
   Vector7 found = Vector7::Zero(), poisson = Vector7::Constant(1e-300);
@@ -103,8 +103,7 @@ void ScoreWeights::weaken_module(std::size_t begin, std::size_t end,
   }
   const double scatter = found.cwiseQuotient(poisson).maxCoeff();
   if (scatter <= usual_scatter) return;
-  const double finite = data_.repeats() / all_repeats;
-  for (std::size_t i = begin; i < end; ++i) weights_[i] *= (1 + finite) / (1 + finite * scatter);
+  for (std::size_t i = begin; i < end; ++i) weights_[i] *= (1 + finite_) / (1 + finite_ * scatter);
 }
 
 // The emulator is not exact over the uncertainty of the place: one bright module may fix its time to 0.1

@@ -32,15 +32,16 @@ class ScoreWeights {
   Matrix7 poisson_variance() const;
 
  private:
-  void weaken_modules(std::span<const LightSample* const> judges, double all_repeats);
+  void weaken_modules(std::span<const LightSample* const> judges);
   void weaken_module(std::size_t begin, std::size_t end, std::span<const LightSample* const> judges,
-                     std::span<const std::vector<double>> gaps, double all_repeats);
+                     std::span<const std::vector<double>> gaps);
   void distrust_module(std::size_t begin, std::size_t end, double position_error);
   template <class Do>
   void for_each_module(Do what) const;
 
   const EventData& data_;
   const Emulator& emulator_;
+  double finite_;  // what finite simulation adds to the variance of counts, in units of Poisson's
   std::vector<Vector7> weights_;
   std::vector<double> means_, relative_variance_;  // of the data
   std::vector<double> by_time_;                    // d ln(expectation) / dt

@@ -171,10 +171,9 @@ void Search::calibrate(End& end, CalibrationNeed& need) {
     return;
   }
   if (!enough_light)
-    need.training =
-        std::min(most_training,
-                 std::max(1.5 * need.training,
-                          training_to_lose(acceptable_loss, solution.weight_loss, need.training)));
+    need.training = std::min(
+        most_training, std::max(1.5 * need.training,
+                                training_to_lose(acceptable_loss, solution.weight_loss, need.training)));
   if (stays) return;
   // The emulators' errors, which a search begins with, may be far too small.
   const PlaceErrors now = place_errors(solution.data_covariance);

@@ -298,9 +298,9 @@ TEST_P(Effects, CoefficientsByWavelengthVersionBubblesAndDust) {
 
 // --- anisotropy of absorption, along the flow, across it and up ---
 
-const double azimuth = 40 * degree;
-const std::array<Vec3, 3> axes{unit_vector(pi / 2, azimuth), unit_vector(pi / 2, azimuth + pi / 2),
-                               Vec3::UnitZ()};
+const double flow_azimuth = 40 * degree;
+const std::array<Vec3, 3> flow_axes{unit_vector(pi / 2, flow_azimuth),
+                                    unit_vector(pi / 2, flow_azimuth + pi / 2), Vec3::UnitZ()};
 
 class AbsorptionAlongAxes : public Effects {
  protected:
@@ -320,11 +320,11 @@ TEST_P(AbsorptionAlongAxes, FollowsThreeFactors) {
   const double k[] = {-0.2, 0.3, 0.5};
   tables.configuration.absorption_anisotropy = IceConfiguration::AbsorptionAnisotropy{k[0], k[1], k[2]};
   for (int i = 0; i < 3; ++i)
-    expect_share(left_along(axes[i], tables), std::exp(-30.0 / 25 * std::exp(-k[i])), photons,
+    expect_share(left_along(flow_axes[i], tables), std::exp(-30.0 / 25 * std::exp(-k[i])), photons,
                  "axis " + std::to_string(i));
   const double root = std::sqrt((std::exp(2 * k[0]) + std::exp(2 * k[2])) / 2);
-  expect_share(left_along((axes[0] + axes[2]).normalized(), tables), std::exp(-30.0 / 25 / root), photons,
-               "between flow and vertical");
+  expect_share(left_along((flow_axes[0] + flow_axes[2]).normalized(), tables), std::exp(-30.0 / 25 / root),
+               photons, "between flow and vertical");
 }
 
 // The old form for k1 = 0.3, k2 = -0.1, k3 = -0.2, worked out by hand: along axis i it is
@@ -339,7 +339,7 @@ TEST_P(AbsorptionAlongAxes, OldFormFollowsTheScatteringAnisotropy) {
   for (const double f : {1.0, 0.5, 0.0}) {
     tables.configuration.old_absorption_scaling = f;
     for (int i = 0; i < 3; ++i)
-      expect_share(left_along(axes[i], tables), std::exp(-30.0 / 25 * std::pow(factor[i], f)), photons,
+      expect_share(left_along(flow_axes[i], tables), std::exp(-30.0 / 25 * std::pow(factor[i], f)), photons,
                    "axis " + std::to_string(i) + ", f = " + std::to_string(f));
   }
 }
@@ -362,7 +362,7 @@ TEST_P(Effects, StretchingAndBackLeavesTheDirection) {
   tables.configuration.flow_azimuth_deg = 40;
   tables.configuration.old_absorption_scaling = 0;
   for (IceLayerRow& row : tables.layers) row.k1 = 0.2, row.k2 = -0.1;
-  const Vec3 direction = (axes[0] + axes[1] + axes[2]).normalized();
+  const Vec3 direction = (flow_axes[0] + flow_axes[1] + flow_axes[2]).normalized();
   // 40 scatters: 0.09 rad, and 0.5 m after 10 m (rms); the widened module is 3.3 m wide.
   const double share = kept_share(make_model(tables, {(10 + R) * direction}), Vec3::Zero(), direction, 20);
   expect_share(share, std::exp(-10 / forward_absorption_length), 2000, "straight on");

@@ -16,7 +16,7 @@
 namespace floe {
 namespace {
 
-constexpr int draws = 400000;
+constexpr int directions = 400000;
 
 // <cos>, <cos^2> of Henyey-Greenstein and of simplified Liu (integrals of their definitions).
 struct Moments {
@@ -37,16 +37,16 @@ TEST_P(Scattering, HasTheMomentsOfItsDistribution) {
   const ScatteringFunction<float> function{liu_fraction, g};
   double first = 0, second = 0, fourth = 0;
   RandomStream random(3, 0, 0);
-  for (int i = 0; i < draws; ++i) {
+  for (int i = 0; i < directions; ++i) {
     const double cosine = 1 - function.one_minus_cos(random.uniform());
-    first += cosine / draws;
-    second += cosine * cosine / draws;
-    fourth += std::pow(cosine, 4) / draws;
+    first += cosine / directions;
+    second += cosine * cosine / directions;
+    fourth += std::pow(cosine, 4) / directions;
   }
   const Moments liu = simplified_liu(g), hg = henyey_greenstein(g);
   const double expected_second = liu_fraction * liu.second + (1 - liu_fraction) * hg.second;
-  EXPECT_NEAR(first, g, 4 * std::sqrt((second - first * first) / draws));
-  EXPECT_NEAR(second, expected_second, 4 * std::sqrt((fourth - second * second) / draws));
+  EXPECT_NEAR(first, g, 4 * std::sqrt((second - first * first) / directions));
+  EXPECT_NEAR(second, expected_second, 4 * std::sqrt((fourth - second * second) / directions));
 }
 
 INSTANTIATE_TEST_SUITE_P(Functions, Scattering,
@@ -62,7 +62,7 @@ TEST_P(Scattering, FollowsItsDensity) {
   constexpr int bins = 50, steps = 400;
   std::vector<double> counts(bins), expected(bins);
   RandomStream random(4, 0, 0);
-  for (int i = 0; i < draws; ++i) {
+  for (int i = 0; i < directions; ++i) {
     const double half_angle = std::asin(std::sqrt(function.one_minus_cos(random.uniform()) / 2));
     ++counts[static_cast<std::size_t>(std::min(bins - 1.0, half_angle / (pi / 2) * bins))];
   }
@@ -70,12 +70,13 @@ TEST_P(Scattering, FollowsItsDensity) {
   for (std::size_t bin = 0; bin < bins; ++bin) {
     for (int step = 0; step < steps; ++step) {
       const double angle = pi * (static_cast<double>(bin) + (step + 0.5) / steps) / bins;
-      expected[bin] += draws * exact.density(1 - std::cos(angle)) * std::sin(angle) * pi / (bins * steps);
+      expected[bin] +=
+          directions * exact.density(1 - std::cos(angle)) * std::sin(angle) * pi / (bins * steps);
     }
     sum += expected[bin];
     chi_square += std::pow(counts[bin] - expected[bin], 2) / std::max(1.0, expected[bin]);
   }
-  EXPECT_NEAR(sum / draws, 1, 1e-4);
+  EXPECT_NEAR(sum / directions, 1, 1e-4);
   EXPECT_LT(chi_square, bins + 5 * std::sqrt(2.0 * bins));
 }
 

@@ -15,7 +15,7 @@ using namespace test;
 namespace {
 
 #define GOOD_HIT "HIT 1 2 3.5 400 1 1 1 1\n"
-#define GOOD_CHARGE "1 2 3.5 0.25\n"
+#define GOOD_RECEIVER "1 2 3.5 0.25\n"
 
 class FlasherText : public ::testing::Test {
  protected:
@@ -72,7 +72,7 @@ TEST_F(FlasherText, RepeatedFlashesAreAnAverage) {
   EXPECT_EQ(photons.at(0).repeats, 4);
   EXPECT_EQ(photons[0].hits[0].charge, 0.25f);
   const auto charges =
-      read("a.dat", "FLASHER 1 1 repeats=240\n" GOOD_CHARGE "1 2 -3 12\nFLASHER 1 2\n" GOOD_CHARGE);
+      read("a.dat", "FLASHER 1 1 repeats=240\n" GOOD_RECEIVER "1 2 -3 12\nFLASHER 1 2\n" GOOD_RECEIVER);
   ASSERT_EQ(charges.size(), 2u);
   EXPECT_EQ(charges[0].repeats, 240);
   EXPECT_EQ(charges[0].hits.at(1).charge, 12);
@@ -142,7 +142,7 @@ TEST_F(FlasherText, WrongLinesAreRefused) {
       {"a.hits", "", "found no flasher run"},
       {"a.hits", GOOD_HIT,
        ":1: found 'HIT 1 2 3.5 400 1 1 1 1'; expected 'FLASHER string DOM key=value ...'"},
-      {"a.dat", GOOD_CHARGE, ":1: found '1 2 3.5 0.25'; expected 'FLASHER"},
+      {"a.dat", GOOD_RECEIVER, ":1: found '1 2 3.5 0.25'; expected 'FLASHER"},
       {"a.hits", "FLASHER 63\n", ":1: found 2 fields"},
       {"a.hits", "FLASHER 63 twenty\n", "expected a whole number for DOM"},
       {"a.hits", "FLASHER 0 20\n", ":1: found string 0"},
@@ -160,7 +160,7 @@ TEST_F(FlasherText, WrongLinesAreRefused) {
       {"a.hits", "FLASHER 63 20 width_deg=180\n", "found beam width 1"},
       {"a.hits", "FLASHER 63 20 repeats=0\n", "found 0 for repeats"},
       {"a.hits", "FLASHER 63 20 oversize=0\n", "found oversize 0"},
-      {"a.hits", "FLASHER 63 20\n" GOOD_CHARGE, "read from a file named .dat"},
+      {"a.hits", "FLASHER 63 20\n" GOOD_RECEIVER, "read from a file named .dat"},
       {"a.hits", "FLASHER 63 20\nTR 1 0 e- 0 0 0 0 0 0 1 0\n", ":2: found 'TR 1 0"},
       {"a.hits", "FLASHER 63 20\nHIT 1 2 3.5 400 1 1 1\n", ":2: found 8 fields"},
       {"a.dat", "FLASHER 63 20\n" GOOD_HIT, ":2: found 9 fields"},

@@ -27,8 +27,8 @@ using namespace hdf5;
 
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr float unknown = Hit::unknown;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr float not_a_number = Hit::unknown;
 
 // Two events: 20 photons with two particles, 10 pulses with none.
 std::filesystem::path good_file(const TemporaryFolder& folder) {
@@ -123,21 +123,22 @@ INSTANTIATE_TEST_SUITE_P(
     Values, MalformedHdf5Test,
     ::testing::Values(
         bad_hit(
-            "NaN time", [](auto& r) { r.time_ns = unknown; }, "time nan (not finite) in row 25 of 'hits'"),
+            "NaN time", [](auto& r) { r.time_ns = not_a_number; },
+            "time nan (not finite) in row 25 of 'hits'"),
         bad_hit(
-            "infinite time", [](auto& r) { r.time_ns = infinite; }, "time inf (not finite)"),
+            "infinite time", [](auto& r) { r.time_ns = infinity; }, "time inf (not finite)"),
         bad_hit(
             "zero charge", [](auto& r) { r.charge_pe = 0; }, "charge 0"),
         bad_hit(
-            "infinite charge", [](auto& r) { r.charge_pe = float(infinite); }, "charge inf"),
+            "infinite charge", [](auto& r) { r.charge_pe = float(infinity); }, "charge inf"),
         bad_hit(
-            "NaN charge", [](auto& r) { r.charge_pe = unknown; }, "charge nan"),
+            "NaN charge", [](auto& r) { r.charge_pe = not_a_number; }, "charge nan"),
         bad_hit(
             "string 0", [](auto& r) { r.string = 0; }, "string 0 in row 25"),
         bad_hit(
             "negative DOM", [](auto& r) { r.dom = -5; }, "DOM -5"),
         bad_hit(
-            "infinite wavelength", [](auto& r) { r.wavelength_nm = float(infinite); }, "wavelength inf"),
+            "infinite wavelength", [](auto& r) { r.wavelength_nm = float(infinity); }, "wavelength inf"),
         bad_hit(
             "half a direction", [](auto& r) { r.direction_x = 1; }, "photon direction (1, nan, nan)"),
         bad_hit(
@@ -164,7 +165,7 @@ INSTANTIATE_TEST_SUITE_P(
         bad_particle(
             "unknown particle", [](auto& r) { r.name[0] = 'x'; }, "particle 'xmu+' in row 1"),
         bad_particle(
-            "NaN position", [](auto& r) { r.y = unknown; }, "position (1.5, nan, -3.5)"),
+            "NaN position", [](auto& r) { r.y = not_a_number; }, "position (1.5, nan, -3.5)"),
         bad_particle(
             "zenith beyond 180", [](auto& r) { r.zenith_deg = 181; }, "expected 0 to 180 [deg]"),
         bad_particle(
@@ -178,7 +179,7 @@ INSTANTIATE_TEST_SUITE_P(
                       [](hid_t file) { set_attribute(file, "format", utf8_type(5), "other"); },
                       "found the format 'other'; expected 'floe-events'"},
         MalformedHdf5{"a number as format",
-                      [](hid_t file) { set_attribute(file, "format", H5T_NATIVE_DOUBLE, &infinite); },
+                      [](hid_t file) { set_attribute(file, "format", H5T_NATIVE_DOUBLE, &infinity); },
                       "an attribute 'format' of another kind"},
         MalformedHdf5{"a later version",
                       [](hid_t file) {
@@ -189,7 +190,7 @@ INSTANTIATE_TEST_SUITE_P(
         MalformedHdf5{"no ice hash", [](hid_t file) { H5Adelete(file, "ice_hash"); },
                       "no attribute 'ice_hash'"},
         MalformedHdf5{"infinite oversize",
-                      [](hid_t file) { set_attribute(file, "oversize", H5T_NATIVE_DOUBLE, &infinite); },
+                      [](hid_t file) { set_attribute(file, "oversize", H5T_NATIVE_DOUBLE, &infinity); },
                       "oversize inf"},
         MalformedHdf5{"no hits", [](hid_t file) { H5Ldelete(file, "hits", H5P_DEFAULT); }, "no table 'hits'"},
         MalformedHdf5{"fewer hits than events say", [](hid_t file) { set_extent(file, "hits", 29); },

@@ -17,7 +17,7 @@ namespace {
 using test::make_model;
 using test::uniform_tables;
 
-constexpr int N = Newborns::count;
+constexpr int lanes = Newborns::count;
 
 // Ice with powers of the wavelength and thermal absorption; modules that see some wavelengths better.
 Model colourful_model() {
@@ -59,7 +59,7 @@ TEST(Newborns, HaveTheirPhotonsStreams) {
         birth(source, batch, first);
         EXPECT_EQ(birth.newborns.first, first);
         std::uint64_t walked = 0;
-        for (int i = 0; i < N; ++i) {
+        for (int i = 0; i < lanes; ++i) {
           RandomStream random(batch.seed, batch.stream, first + static_cast<std::uint64_t>(i));
           const EmittedPhoton photon = source.emit(random);
           ASSERT_EQ(birth.newborns.photons.wavelength[i], photon.wavelength);
@@ -92,10 +92,10 @@ TEST(Newborns, AreWalkedUpToTheEndOfTheBatch) {
     for (const std::uint64_t start : {0U, 77U}) {
       const PhotonBatch batch{1, 2, start, count};
       std::uint64_t walked = 0;
-      for (std::uint64_t first = start; first < start + count; first += N) {
+      for (std::uint64_t first = start; first < start + count; first += lanes) {
         birth(isotropic_source(), batch, first);
-        const auto left = std::min<std::uint64_t>(N, start + count - first);
-        EXPECT_EQ(birth.newborns.walked, left == N ? ~std::uint64_t{0} : (std::uint64_t{1} << left) - 1);
+        const auto left = std::min<std::uint64_t>(lanes, start + count - first);
+        EXPECT_EQ(birth.newborns.walked, left == lanes ? ~std::uint64_t{0} : (std::uint64_t{1} << left) - 1);
         walked += static_cast<std::uint64_t>(std::popcount(birth.newborns.walked));
       }
       EXPECT_EQ(walked, count);
@@ -111,7 +111,7 @@ TEST(Newborns, AreWalkedWithTheirChance) {
     constexpr std::uint32_t count = 1U << 16;
     const PhotonBatch batch{9, 0, 0, count};
     double walked = 0;
-    for (std::uint64_t first = 0; first < count; first += N) {
+    for (std::uint64_t first = 0; first < count; first += lanes) {
       birth(source, batch, first);
       walked += std::popcount(birth.newborns.walked);
     }
@@ -126,10 +126,10 @@ TEST(Newborns, KnowTheFactorsOfTheirWavelength) {
   const Model model = colourful_model();
   Birth birth(model);
   const IceModel& ice = *model.ice;
-  const PhotonBatch batch{1, 0, 0, N};
+  const PhotonBatch batch{1, 0, 0, lanes};
   for (const double wavelength : {300.0, 337.0, 400.0, 473.0, 599.0, 650.0}) {
     birth(isotropic_source(test::line_at(wavelength)), batch, 0);
-    for (int i = 0; i < N; ++i) {
+    for (int i = 0; i < lanes; ++i) {
       ASSERT_NEAR(birth.newborns.scattering_power[i] / ice.scattering_power_factor(wavelength), 1, 1e-5);
       ASSERT_NEAR(birth.newborns.absorption_dust[i] / ice.absorption_dust_factor(wavelength), 1, 1e-5);
       ASSERT_NEAR(birth.newborns.absorption_thermal[i] / ice.absorption_thermal_factor(wavelength), 1, 1e-4);
@@ -137,7 +137,7 @@ TEST(Newborns, KnowTheFactorsOfTheirWavelength) {
     }
   }
   birth(isotropic_source(), batch, 0);
-  for (int i = 0; i < N; ++i) {
+  for (int i = 0; i < lanes; ++i) {
     const double wavelength = birth.newborns.photons.wavelength[i];
     ASSERT_NEAR(birth.newborns.scattering_power[i] / ice.scattering_power_factor(wavelength), 1, 1e-5);
     ASSERT_NEAR(birth.newborns.absorption_dust[i] / ice.absorption_dust_factor(wavelength), 1, 1e-5);
@@ -150,14 +150,14 @@ TEST(Newborns, KnowTheFactorsOfTheirWavelength) {
 TEST(Newborns, OutsideTheTablesRangeTheEndsHold) {
   const Model model = colourful_model();
   Birth birth(model);
-  const PhotonBatch batch{1, 0, 0, N};
+  const PhotonBatch batch{1, 0, 0, lanes};
   struct Case {
     double wavelength, at, index_at;
   };
   for (const auto& [wavelength, at, index_at] :
        {Case{150, 200, 250}, Case{200, 200, 250}, Case{1000, 1000, 700}, Case{1500, 1000, 700}}) {
     birth(isotropic_source(test::line_at(wavelength)), batch, 0);
-    for (int i = 0; i < N; ++i) {
+    for (int i = 0; i < lanes; ++i) {
       ASSERT_NEAR(birth.newborns.scattering_power[i] / model.ice->scattering_power_factor(at), 1, 1e-4);
       ASSERT_NEAR(birth.newborns.absorption_thermal[i] / model.ice->absorption_thermal_factor(at), 1, 1e-3);
       ASSERT_NEAR(birth.newborns.slowness[i] * speed_of_light / group_index(index_at), 1, 1e-6);

@@ -10,12 +10,12 @@
 namespace floe {
 namespace {
 
-constexpr Eigen::Index bins = 200;
+constexpr Eigen::Index bin_count = 200;
 
 Eigen::MatrixXd some_places() {
-  Eigen::MatrixXd places(bins, 4);
-  for (Eigen::Index b = 0; b < bins; ++b) {
-    const double x = 2.0 * static_cast<double>(b) / (bins - 1) - 1;
+  Eigen::MatrixXd places(bin_count, 4);
+  for (Eigen::Index b = 0; b < bin_count; ++b) {
+    const double x = 2.0 * static_cast<double>(b) / (bin_count - 1) - 1;
     places.row(b) << 1, x, std::cos(7 * x), x * x;
   }
   return places;
@@ -32,10 +32,10 @@ void draw(const Eigen::VectorXd& truth, double hits, double sigma, std::mt19937_
           LightFold (&folds)[2]) {
   std::normal_distribution<double> normal;
   for (LightFold& fold : folds) {
-    fold = {Eigen::VectorXd::Constant(bins, hits), hits * truth,
-            hits * (truth.cwiseAbs2().array() + sigma * sigma).matrix(), Eigen::MatrixXd(bins, 1),
-            Eigen::VectorXd::Zero(bins)};
-    for (Eigen::Index b = 0; b < bins; ++b) {
+    fold = {Eigen::VectorXd::Constant(bin_count, hits), hits * truth,
+            hits * (truth.cwiseAbs2().array() + sigma * sigma).matrix(), Eigen::MatrixXd(bin_count, 1),
+            Eigen::VectorXd::Zero(bin_count)};
+    for (Eigen::Index b = 0; b < bin_count; ++b) {
       fold.slopes(b, 0) += std::sqrt(hits) * sigma * normal(random);
       fold.dwell.row(b) = hits * dwell_of(b);
     }
@@ -45,8 +45,8 @@ void draw(const Eigen::VectorXd& truth, double hits, double sigma, std::mt19937_
 // A smooth function of the place, in proportion to the dwell.
 Eigen::VectorXd smooth_truth() {
   const Eigen::MatrixXd places = some_places();
-  Eigen::VectorXd truth(bins);
-  for (Eigen::Index b = 0; b < bins; ++b)
+  Eigen::VectorXd truth(bin_count);
+  for (Eigen::Index b = 0; b < bin_count; ++b)
     truth(b) = dwell_of(b)(0) / 20 * (0.1 + 0.05 * places(b, 1) - 0.08 * places(b, 2));
   return truth;
 }
@@ -58,8 +58,8 @@ double power(const Eigen::VectorXd& x) {
 TEST(SmoothSlopes, AreTheSlopesWhereNothingIsNoisy) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
-  Eigen::VectorXd truth(bins);  // nothing smooth about it
-  for (Eigen::Index b = 0; b < bins; ++b) truth(b) = normal(random);
+  Eigen::VectorXd truth(bin_count);  // nothing smooth about it
+  for (Eigen::Index b = 0; b < bin_count; ++b) truth(b) = normal(random);
   LightFold folds[2];
   draw(truth, 30, 0, random, folds);
   const SmoothSlopes slopes = smooth_slopes(folds, some_places(), all_symmetric(folds));
@@ -90,7 +90,7 @@ TEST(SmoothSlopes, SayOnAverageWhatTheSlopesAre) {
     std::normal_distribution<double> normal;
     Eigen::VectorXd truth = smooth_truth();
     const double usual = std::sqrt(power(truth));
-    for (Eigen::Index b = 0; b < bins; ++b) truth(b) += 0.5 * usual * normal(random);
+    for (Eigen::Index b = 0; b < bin_count; ++b) truth(b) += 0.5 * usual * normal(random);
     double found = 0, claimed = 0;
     for (int trial = 0; trial < 50; ++trial) {
       LightFold folds[2];
@@ -111,7 +111,7 @@ TEST(SmoothSlopes, AreNothingWhereThereIsNothing) {
   constexpr int trials = 100;
   for (int trial = 0; trial < trials; ++trial) {
     LightFold folds[2];
-    draw(Eigen::VectorXd::Zero(bins), 30, std::sqrt(30.0), random, folds);
+    draw(Eigen::VectorXd::Zero(bin_count), 30, std::sqrt(30.0), random, folds);
     const SmoothSlopes slopes = smooth_slopes(folds, some_places(), all_symmetric(folds));
     for (const auto& fold : slopes.fold) left += power(fold.col(0)) / (2 * trials);
   }
