@@ -186,6 +186,10 @@ Stage Search::rough_stage(const LightCentre& light) {
           photons_for(cascade_of(light, options_.kind), coarse, {3, 6e5, 3e6})};
 }
 
+Search::RoundEnd Search::settle_roughly(const LightCentre& light) {
+  return settle(light, rough_stage(light), most_rough_rounds, true);
+}
+
 // Rounds at the wanted oversize, with steps that follow the errors.
 Search::RoundEnd Search::sharpen(const RoundEnd& rough) {
   RoundEnd end = rough;
@@ -210,8 +214,7 @@ Search::RoundEnd Search::sharpen_within_minimum(const RoundEnd& rough) {
 }
 
 Search::End Search::from(const CascadeParameters& start) {
-  const LightCentre light = light_centre(start, options_.kind);
-  return finish(sharpen(settle(light, rough_stage(light), most_rough_rounds, true)));
+  return finish(sharpen(settle_roughly(light_centre(start, options_.kind))));
 }
 
 Search::End Search::from_scratch(const PointSeed& point) {
@@ -238,24 +241,30 @@ Search::End Search::from_scratch(const PointSeed& point) {
   return from_starts(starts);
 }
 
-std::vector<Search::Minimum> Search::other_way(std::vector<Minimum> minima, const Stage& coarse) {
+std::vector<Search::Minimum> Search::other_way(std::vector<Minimum> minima) {
   const LightCentre& best = minima.front().end.light;
-  const LightCentre other = turned_round(best, light_ahead(ice_, best.position.z()));
+  RoundEnd turned = minima.front().end;
+  turned.light = turned_round(best, light_ahead(ice_, best.position.z()));
   const bool known = std::any_of(minima.begin(), minima.end(), [&](const Minimum& minimum) {
-    return minimum.end.light.direction.dot(other.direction) > std::cos(other_direction);
+    return minimum.end.light.direction.dot(turned.light.direction) > std::cos(other_direction);
   });
   if (known) return minima;
+  const auto stays = [](const std::vector<Minimum>& all, const RoundEnd& end) {
+    return std::any_of(all.begin(), all.end(), [&](const Minimum& minimum) {
+      return minimum.end.light.position == end.light.position;
+    });
+  };
   const auto before = std::tuple(stream_, draws_, contests_);
   const std::size_t simulations = simulations_.size(), rounds = result_.rounds.size();
-  const RoundEnd end = settle(other, coarse, most_coarse_rounds, false);
-  std::vector<RoundEnd> ends;
-  for (const Minimum& minimum : minima) ends.push_back(minimum.end);
-  ends.push_back(end);
-  std::vector<Minimum> all = contest(ends, first_contest, slack_of_first_contest);
-  const bool stays = std::any_of(all.begin(), all.end(), [&](const Minimum& minimum) {
-    return minimum.end.light.position == end.light.position;
-  });
-  if (stays) return all;
+  const RoundEnd both[] = {minima.front().end, turned};
+  if (stays(contest(both, first_contest, slack_of_first_contest), turned)) {
+    const RoundEnd end = settle_roughly(turned.light);
+    std::vector<RoundEnd> ends;
+    for (const Minimum& minimum : minima) ends.push_back(minimum.end);
+    ends.push_back(end);
+    std::vector<Minimum> all = contest(ends, second_contest, slack_of_second_contest);
+    if (stays(all, end)) return all;
+  }
   std::tie(stream_, draws_, contests_) = before;
   simulations_.resize(simulations);
   result_.rounds.resize(rounds);
@@ -277,8 +286,7 @@ std::vector<Search::Minimum> Search::around_only_string(std::vector<Minimum> min
     add(turned), add(mirrored_about(*axis, turned));
   }
   for (const Minimum& minimum : contest(alike, {3, 2e5, 2e6}, slack_of_first_contest, most_around_string))
-    if (!same_minimum(minimum.end.light, best))
-      ends.push_back(settle(minimum.end.light, rough_stage(minimum.end.light), most_rough_rounds, true));
+    if (!same_minimum(minimum.end.light, best)) ends.push_back(settle_roughly(minimum.end.light));
   return contest(ends, second_contest, slack_of_second_contest, most_around_string);
 }
 
@@ -290,12 +298,11 @@ Search::End Search::from_starts(std::span<const LightCentre> starts) {
                      photons_for(cascade_of(starts.front(), options_.kind), oversize, {1, 4e5, 2e6})};
   std::vector<RoundEnd> ends;
   for (const LightCentre& start : starts) ends.push_back(settle(start, coarse, most_coarse_rounds, false));
-  std::vector<Minimum> minima = other_way(contest(ends, first_contest, slack_of_first_contest), coarse);
+  std::vector<Minimum> minima = contest(ends, first_contest, slack_of_first_contest);
 
   ends.clear();
-  for (const Minimum& minimum : minima)
-    ends.push_back(settle(minimum.end.light, rough_stage(minimum.end.light), most_rough_rounds, true));
-  minima = around_only_string(contest(ends, second_contest, slack_of_second_contest));
+  for (const Minimum& minimum : minima) ends.push_back(settle_roughly(minimum.end.light));
+  minima = around_only_string(other_way(contest(ends, second_contest, slack_of_second_contest)));
   if (minima.size() < 2) return finish(sharpen(minima.front().end));
   return best_of(minima);
 }

@@ -79,6 +79,7 @@ class Search {
                    std::span<const LightSample* const> samples) const;
   static bool has_settled(const RoundEnd& end, const Stage& stage);
   RoundEnd settle(LightCentre origin, Stage stage, int most, bool follow_light);
+  RoundEnd settle_roughly(const LightCentre& light);
   RoundEnd sharpen(const RoundEnd& rough);
   RoundEnd sharpen_within_minimum(const RoundEnd& rough);
   // Calibrations until one moves no further. Gives up, unconverged, on the way into one of the minima that
@@ -113,7 +114,7 @@ class Search {
                                std::size_t most = 2);
   // Beside these, where the best would be if it went the other way: scattered light tells where its middle is
   // sooner than from which side it came. Leaves no trace but its costs where that leads nowhere.
-  std::vector<Minimum> other_way(std::vector<Minimum> minima, const Stage& coarse);
+  std::vector<Minimum> other_way(std::vector<Minimum> minima);
   // Beside these, where the best would be at other azimuths about the only string with light, or mirrored in
   // the plane through the two, if there is one.
   std::vector<Minimum> around_only_string(std::vector<Minimum> minima);
