@@ -22,8 +22,9 @@ renewed() { # FILE
       printf '%s\n' "$line"
     elif [[ $line == '$ '* ]]; then
       printf '%s\n' "$line"
-      # Exit codes are part of what is shown (head closes its pipe early, too).
-      (cd "$floe_root/demo-output" && bash -c "${line#\$ }" 2>&1 </dev/null) || true
+      # Exit codes are part of what is shown (head closes its pipe early, too); progress, which only commands
+      # that take long print, is not.
+      (cd "$floe_root/demo-output" && bash -c "${line#\$ }" 2>&1 </dev/null) | grep -vE '^ *[0-9]+%  .* left  ' || true
     fi
   done <"$1"
 }
