@@ -26,7 +26,8 @@ constexpr std::size_t most_starts = 3;
 constexpr double same_place = 8, same_direction = 25 * degree;  // [m]
 // A minimum so much worse in -ln L, by this many errors as well, is left behind.
 constexpr double hopeless = 8, hopeless_errors = 3;
-constexpr PhotonNeed first_contest{3, 2e5, 1e6}, second_contest{10, 2e5, 1e7};
+constexpr PhotonNeed first_contest{3, 2e5, 1e6}, second_contest{10, 2e5, 1e7},
+    contest_about_string{3, 2e5, 2e6};
 constexpr double slack_of_first_contest = 0.5;    // of the best -ln L: not all ends have settled
 constexpr double slack_of_second_contest = 0.05;  // they nearly have
 // What an end that has not settled is off in a bright module near by would drown all that the others say: it
@@ -158,6 +159,12 @@ std::vector<Search::Minimum> Search::distinct(std::span<const RoundEnd> ends) {
   return minima;
 }
 
+std::vector<Search::RoundEnd> Search::ends_of(std::span<const Minimum> minima) {
+  std::vector<RoundEnd> ends;
+  for (const Minimum& minimum : minima) ends.push_back(minimum.end);
+  return ends;
+}
+
 std::vector<Search::Minimum> Search::contest(std::span<const RoundEnd> ends, const PhotonNeed& need,
                                              double slack, std::size_t most) {
   std::vector<Minimum> minima = distinct(ends);
@@ -259,8 +266,7 @@ std::vector<Search::Minimum> Search::other_way(std::vector<Minimum> minima) {
   const RoundEnd both[] = {minima.front().end, turned};
   if (stays(contest(both, first_contest, slack_of_first_contest), turned)) {
     const RoundEnd end = settle_roughly(turned.light);
-    std::vector<RoundEnd> ends;
-    for (const Minimum& minimum : minima) ends.push_back(minimum.end);
+    std::vector<RoundEnd> ends = ends_of(minima);
     ends.push_back(end);
     std::vector<Minimum> all = contest(ends, second_contest, slack_of_second_contest);
     if (stays(all, end)) return all;
@@ -277,15 +283,15 @@ std::vector<Search::Minimum> Search::around_only_string(std::vector<Minimum> min
   const std::optional<Vec3> axis = axis_of_only_string(data_);
   if (!axis) return minima;
   const LightCentre best = minima.front().end.light;
-  std::vector<RoundEnd> ends, alike;
-  for (const Minimum& minimum : minima) ends.push_back(minimum.end);
+  std::vector<RoundEnd> ends = ends_of(minima), alike;
   // The best is among them, so that what mirrors onto it is no start of its own.
   const auto add = [&](const LightCentre& light) { alike.emplace_back(minima.front().end).light = light; };
   for (int i = 0; i < turns; ++i) {
     const LightCentre turned = turned_about(*axis, 2 * pi * i / turns, best);
     add(turned), add(mirrored_about(*axis, turned));
   }
-  for (const Minimum& minimum : contest(alike, {3, 2e5, 2e6}, slack_of_first_contest, most_around_string))
+  for (const Minimum& minimum :
+       contest(alike, contest_about_string, slack_of_first_contest, most_around_string))
     if (!same_minimum(minimum.end.light, best)) ends.push_back(settle_roughly(minimum.end.light));
   return contest(ends, second_contest, slack_of_second_contest, most_around_string);
 }

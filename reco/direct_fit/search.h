@@ -106,10 +106,10 @@ class Search {
   static bool same_minimum(const LightCentre& a, const LightCentre& b);
   Evaluation measure(const LightCentre& light, double oversize, double photons, double model_error);
   static std::vector<Minimum> distinct(std::span<const RoundEnd> ends);
+  static std::vector<RoundEnd> ends_of(std::span<const Minimum> minima);
   // Sorts ends by what fresh simulations of so many photons say, with the model error of ends that have not
-  // settled, best first; ends that came together count
-  // once, and those worse in -ln L by more than its noise and `slack` times the best are left behind, as are
-  // all but the first `most`.
+  // settled, best first; ends that came together count once, and those worse in -ln L by more than its noise
+  // and `slack` times the best are left behind, as are all but the first `most`.
   std::vector<Minimum> contest(std::span<const RoundEnd> ends, const PhotonNeed& need, double slack,
                                std::size_t most = 2);
   // Beside these, where the best would be if it went the other way: scattered light tells where its middle is
