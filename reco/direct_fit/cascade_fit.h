@@ -24,7 +24,7 @@ class ExpectationModel;  // reco/direct_fit/expectation_model.h
 
 // Goes up when results of the same event and options change, errors included: files that go on with earlier
 // results compare it.
-constexpr int cascade_fit_revision = 9;
+constexpr int cascade_fit_revision = 10;
 
 struct FitOptions {
   // The hypothesis: electron (the energy is then EM-equivalent) or hadron.

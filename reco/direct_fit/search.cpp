@@ -221,7 +221,7 @@ Search::RoundEnd Search::sharpen_within_minimum(const RoundEnd& rough) {
 }
 
 Search::End Search::from(const CascadeParameters& start) {
-  return finish(sharpen(settle_roughly(light_centre(start, options_.kind))));
+  return refined(finish(sharpen(settle_roughly(light_centre(start, options_.kind)))));
 }
 
 Search::End Search::from_scratch(const PointSeed& point) {
@@ -309,7 +309,7 @@ Search::End Search::from_starts(std::span<const LightCentre> starts) {
   ends.clear();
   for (const Minimum& minimum : minima) ends.push_back(settle_roughly(minimum.end.light));
   minima = around_only_string(other_way(contest(ends, second_contest, slack_of_second_contest)));
-  if (minima.size() < 2) return finish(sharpen(minima.front().end));
+  if (minima.size() < 2) return refined(finish(sharpen(minima.front().end)));
   return best_of(minima);
 }
 
@@ -325,7 +325,7 @@ Search::End Search::best_of(std::span<const Minimum> minima) {
     else if (same->unsolved && end.converged)
       *same = std::move(end);
   }
-  if (ends.size() < 2) return ends.front();
+  if (ends.size() < 2) return refined(ends.front());
   const auto [best, worse] = tell_apart(ends);
   std::vector<OtherEnd> others;
   for (std::size_t i = 0; i < ends.size(); ++i)
@@ -333,7 +333,7 @@ Search::End Search::best_of(std::span<const Minimum> minima) {
       others.push_back({cascade_of(ends[i].light, options_.kind), worse[i].value, worse[i].error,
                         ends[i].unsolved && !ends[best].unsolved});
   result_.other_minimum = competing_minimum(others);
-  return ends[best];
+  return refined(ends[best]);
 }
 
 // Modules of the wanted size: minima that mirror each other about a string differ by what wide modules blur.

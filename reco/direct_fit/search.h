@@ -35,6 +35,12 @@ class Search {
     std::vector<ScoreFold> folds;  // two; they refer to `data` and to the search's simulations
     ScoreSolution solution;
   };
+  // Errors as far as they are known, how far apart and with how many photons to simulate in the next
+  // calibration.
+  struct CalibrationNeed {
+    PlaceErrors errors;
+    double reach = 1, training = 1, judging = 1;  // times the usual
+  };
   // Where the search ends. Coarse rounds far apart and with wide modules, fine ones at the wanted oversize;
   // earlier simulations near by are used again. When a fine round has moved no more than its design is
   // wide, the calibrated score (reco/direct_fit/calibrated_score.h) makes the last step.
@@ -47,6 +53,7 @@ class Search {
     std::string trouble;                                    // in words, when it did not converge
     std::vector<std::vector<double>> edges;  // of time bins that follow the light there; see arrival_edges
     std::shared_ptr<const Calibration> calibration;  // of the last step; empty when the score has no solution
+    CalibrationNeed need;                            // of a further one
     // When the calibrated score has a solution: the likelihood around it. Search and end must outlive it.
     std::optional<ScoreLikelihood> likelihood() const;
     // See InformationBound; infinite without a calibrated score.
@@ -85,17 +92,11 @@ class Search {
   // Calibrations until one moves no further. Gives up, unconverged, on the way into one of the minima that
   // are known.
   End finish(const RoundEnd& rough, std::span<const End> known = {});
-  // Errors as far as they are known, how far apart and with how many photons to simulate in the next
-  // calibration.
-  struct CalibrationNeed {
-    PlaceErrors errors;
-    double reach = 1, training = 1, judging = 1;  // times the usual
-  };
-  void calibrate(End& end, CalibrationNeed& need);
+  void calibrate(End& end);
   // What calibrations that found nothing leave: the mean of where they went, or the emulator's minimum.
-  void end_without_solution(End& end, const CalibrationNeed& need, std::span<const LightCentre> visited);
+  void end_without_solution(End& end, std::span<const LightCentre> visited);
   static std::optional<AveragePlace> walked_about(std::span<const LightCentre> visited);
-  End refined(const End& end, CalibrationNeed need);
+  End refined(const End& end);
   std::vector<const LightSample*> enough(const LocalFrame& frame, Stage stage, double photons,
                                          Purpose purpose);
   // A minimum on the way, measured by fresh simulations.

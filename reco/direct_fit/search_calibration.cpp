@@ -19,9 +19,9 @@ constexpr double acceptable_pull = 1.5;  // of the last step of all
 constexpr double least_fresh_share = 0.2, acceptable_loss = 1.3, most_training = 6;
 constexpr double acceptable_dispersion = 1.8, least_reach = 0.3;
 // Photons of the last calibration, times the usual; as many more for the weights as they lose more than this.
-constexpr double last_training = 2.5, last_judging = 2.5, last_loss = 1.1;
-// Photons that judge, of bright cascades and in each fold: the usual, and at most with `last_judging`.
-constexpr double most_judging = 3.2e7, most_last_judging = 5e7;
+constexpr double last_training = 1.5, last_judging = 2.5, last_loss = 1.1;
+// Photons that judge, in each fold.
+constexpr PhotonNeed usual_judging{5, 2e6, 2e7};
 constexpr double close_enough = 1.2;  // last steps, in steps of the narrow design
 // [photoelectrons] expected: hardly any module stays dark.
 constexpr double surely_seen = 4;
@@ -54,12 +54,12 @@ Search::End Search::finish(const RoundEnd& rough, std::span<const End> known) {
     end.covariance.setConstant(std::numeric_limits<double>::infinity());
     return end;
   }
-  CalibrationNeed need{{errors.head<3>().norm(), errors.segment<2>(3).norm()}};
+  end.need.errors = {errors.head<3>().norm(), errors.segment<2>(3).norm()};
   end.unsolved = data_.charge() < worthwhile_charge;
   std::optional<End> found;  // the last solution that stayed near its calibration
   std::vector<LightCentre> visited;
   for (std::size_t i = 0; i < most_calibrations && !end.converged && !end.unsolved; ++i) {
-    calibrate(end, need);
+    calibrate(end);
     if (std::any_of(known.begin(), known.end(), [&](const End& other) {
           return !other.unsolved && same_minimum(end.light, other.light);
         }))
@@ -68,17 +68,15 @@ Search::End Search::finish(const RoundEnd& rough, std::span<const End> known) {
     visited.push_back(end.light);
   }
   if (!end.converged && found) end = *found;
-  if (end.converged) end = refined(end, need);
   end.unsolved |= !end.converged && !found;
   if (end.unsolved)
-    end_without_solution(end, need, visited);
+    end_without_solution(end, visited);
   else
     end.converged = true;
   return end;
 }
 
-void Search::end_without_solution(End& end, const CalibrationNeed& need,
-                                  std::span<const LightCentre> visited) {
+void Search::end_without_solution(End& end, std::span<const LightCentre> visited) {
   end.calibration.reset();
   if (const std::optional<AveragePlace> average = walked_about(visited)) {
     end.light = average->light;
@@ -87,7 +85,7 @@ void Search::end_without_solution(End& end, const CalibrationNeed& need,
     return;
   }
   // Too little light for the score: the emulator's own minimum and curvature are what is left.
-  Stage wide = calibration_stages(data_, end.light, need.errors, need.reach, options_.oversize).wide;
+  Stage wide = calibration_stages(data_, end.light, end.need.errors, end.need.reach, options_.oversize).wide;
   wide.photons = photons_for(cascade_of(end.light, options_.kind), wide.oversize, {300, 2e6, 2e7});
   const RoundEnd last = settle(end.light, wide, most_rounds_without_score, true);
   end.light = last.light;
@@ -98,13 +96,17 @@ void Search::end_without_solution(End& end, const CalibrationNeed& need,
 
 // The last calibration once more with more photons: what their noise adds to the errors is the largest share
 // that the data do not make.
-Search::End Search::refined(const End& end, CalibrationNeed need) {
+Search::End Search::refined(const End& end) {
+  if (!end.calibration) return end;
   End last = end;
-  need.training = std::clamp(training_to_lose(last_loss, end.weight_loss(), need.training),
-                             std::max(need.training, last_training), most_training);
-  need.judging = last_judging;
-  calibrate(last, need);
-  return last.unsolved || !(last.pull < acceptable_pull) ? end : last;
+  double& training = last.need.training;
+  training = std::clamp(training_to_lose(last_loss, end.weight_loss(), training),
+                        std::max(training, last_training), most_training);
+  last.need.judging = last_judging;
+  calibrate(last);
+  if (last.unsolved || !(last.pull < acceptable_pull)) return end;
+  last.converged = true;
+  return last;
 }
 
 // Simulations near by that have so many photons together: as many as are missing are made.
@@ -119,14 +121,14 @@ std::vector<const LightSample*> Search::enough(const LocalFrame& frame, Stage st
 
 // Two draws of a wide design with wide modules teach the weights, two narrow ones at the wanted oversize say
 // what the weighted sums mean.
-void Search::calibrate(End& end, CalibrationNeed& need) {
+void Search::calibrate(End& end) {
+  CalibrationNeed& need = end.need;
   const LocalFrame frame(end.light);
   const CascadeParameters here = cascade_of(end.light, options_.kind);
   const auto [wide, narrow] =
       calibration_stages(data_, end.light, need.errors, need.reach, options_.oversize);
   const double for_training = need.training * photons_for(here, wide.oversize, {100, 1e6, 1e7});
-  const double most = std::min(most_judging, most_last_judging / need.judging);
-  const double for_judging = need.judging * photons_for(here, narrow.oversize, {5, 2e6, most});
+  const double for_judging = need.judging * photons_for(here, narrow.oversize, usual_judging);
   const std::vector<const LightSample*> training[2] = {
       enough(frame, wide, for_training, Purpose::first_emulator),
       enough(frame, wide, for_training, Purpose::second_emulator)};
