@@ -67,9 +67,11 @@ Json to_json(const FullTrial& trial) {
   for (const FullTrial::Value& value : trial.values)
     values.push_back(
         {{"name", value.name}, {"hidden", value.hidden}, {"found", value.found}, {"error", value.error}});
-  return {{"hidden", hidden},         {"outside", trial.outside}, {"verdict", trial.verdict},
-          {"named", named},           {"values", values},         {"closed", trial.closed},
-          {"remarks", trial.remarks}, {"seconds", trial.seconds}, {"right", trial.right()}};
+  return {{"hidden", hidden},         {"outside", trial.outside},
+          {"verdict", trial.verdict}, {"named", named},
+          {"values", values},         {"closed", trial.closed ? Json(*trial.closed) : Json()},
+          {"remarks", trial.remarks}, {"seconds", trial.seconds},
+          {"right", trial.right()}};
 }
 
 FullTrial full_trial_of(const Json& json) {
@@ -80,7 +82,7 @@ FullTrial full_trial_of(const Json& json) {
   for (const Json& named : json.at("named")) trial.named.push_back(named_of(named));
   for (const Json& value : json.at("values"))
     trial.values.push_back({value.at("name"), value.at("hidden"), value.at("found"), value.at("error")});
-  trial.closed = json.at("closed");
+  if (const Json& closed = json.at("closed"); !closed.is_null()) trial.closed = closed.get<double>();
   trial.remarks = json.at("remarks").get<std::vector<std::string>>();
   trial.seconds = json.at("seconds");
   return trial;

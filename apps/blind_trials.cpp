@@ -85,7 +85,8 @@ std::string full_trials(const BlindTrials& trials) {
   TextTable table({"hidden for a whole diagnosis", "verdict", "gap closed", ""});
   int right = 0, elsewhere = 0, named = 0, values = 0, within = 0;
   for (const FullTrial& trial : trials.full) {
-    table.add({hidden_names(trial), verdict_of(trial), fmt::format("{:.0f}%", 100 * trial.closed),
+    table.add({hidden_names(trial), verdict_of(trial),
+               trial.closed ? fmt::format("{:.0f}%", 100 * *trial.closed) : "hardly any gap",
                outcome_of(trial)});
     right += trial.right();
     elsewhere += trial.right() && trial.elsewhere();

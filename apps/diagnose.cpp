@@ -1,6 +1,7 @@
 // floe diagnose: what is a model of the ice missing?
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <system_error>
@@ -31,6 +32,15 @@ struct DiagnoseCommand {
   OutputOptions output;
 };
 
+// No light would separate: null.
+Json separation_json(const Separation& separation) {
+  return {{"effect", separation.effect},
+          {"other", separation.other},
+          {"light", std::isfinite(separation.light) ? Json(separation.light) : Json()},
+          {"run", separation.run},
+          {"sentence", separation.sentence}};
+}
+
 Json effect_json(const NamedEffect& effect) {
   Json parameters = Json::object();
   for (std::size_t i = 0; i < effect.values.size(); ++i) {
@@ -43,7 +53,13 @@ Json effect_json(const NamedEffect& effect) {
         {"value", effect.mean->value}, {"error", effect.mean->error}, {"unit", ""}};
   for (const auto& [name, value] : effect.suspect.place)
     if (!parameters.contains(name)) parameters[name] = {{"value", value}, {"error", 0.0}, {"unit", ""}};
-  return {{"name", effect.suspect.effect}, {"parameters", parameters}, {"significance", effect.significance}};
+  Json separations = Json::array();
+  for (const Separation& separation : effect.separations) separations.push_back(separation_json(separation));
+  return {{"name", effect.suspect.effect},
+          {"parameters", parameters},
+          {"significance", effect.significance},
+          {"group", effect.group},
+          {"separations", separations}};
 }
 
 Json region_json(const Region& region) {
@@ -81,15 +97,6 @@ Json step_json(const DiagnosisStep& step) {
   return json;
 }
 
-// No light would separate: null.
-Json separation_json(const Separation& separation) {
-  return {{"effect", separation.effect},
-          {"other", separation.other},
-          {"light", std::isfinite(separation.light) ? Json(separation.light) : Json()},
-          {"run", separation.run},
-          {"sentence", separation.sentence}};
-}
-
 Json diagnosis_json(const Diagnosis& diagnosis, const DiagnoseCommand& command, const Model& base) {
   Json json = {{"command", command.command},
                {"version", FLOE_VERSION},
@@ -102,7 +109,6 @@ Json diagnosis_json(const Diagnosis& diagnosis, const DiagnoseCommand& command, 
                {"remarks", diagnosis.remarks},
                {"verdict", diagnosis.verdict},
                {"groups", Json::object()},
-               {"separations", Json::array()},
                {"where", Json::array()},
                {"effects", Json::array()},
                {"p_value", diagnosis.p_value},
@@ -111,15 +117,18 @@ Json diagnosis_json(const Diagnosis& diagnosis, const DiagnoseCommand& command, 
                {"p_of_rest", diagnosis.p_of_rest ? Json(*diagnosis.p_of_rest) : Json()},
                {"gap_before", diagnosis.gap_before},
                {"gap_after", diagnosis.gap_after},
+               {"gap_scatter", diagnosis.gap_scatter},
                {"closed", diagnosis.closed()},
+               {"folds", diagnosis.folds},
                {"gaps", Json::array()},
                {"steps", Json::array()},
                {"seconds", diagnosis.seconds}};
   for (const NamedEffect& effect : diagnosis.effects) {
-    json["groups"][effect.suspect.effect] = effect.group;
     json["effects"].push_back(effect_json(effect));
-    for (const Separation& separation : effect.separations)
-      json["separations"].push_back(separation_json(separation));
+    // Two strings may have the same effect: what either cannot be told from.
+    Json& group = json["groups"][effect.suspect.effect];
+    for (const std::string& other : effect.group)
+      if (std::find(group.begin(), group.end(), other) == group.end()) group.push_back(other);
   }
   for (const Region& region : diagnosis.steps.front().where.regions)
     json["where"].push_back(region_json(region));
@@ -149,7 +158,8 @@ std::string summary(const Diagnosis& diagnosis, const DiagnoseCommand& command) 
   for (const NamedEffect& effect : diagnosis.effects)
     for (const Separation& separation : effect.separations) text += separation.sentence + "\n";
   for (const std::string& remark : diagnosis.remarks) text += remark + "\n";
-  return text + fmt::format("Gap in held-out runs: {:.1f} before, {:.1f} after ({:.0f} s).\n",
+  return text + fmt::format("Gap in {}: {:.1f} before, {:.1f} after ({:.0f} s).\n",
+                            diagnosis.folds > 1 ? "held-out runs" : "the fitted runs (none was held out)",
                             diagnosis.gap_before, diagnosis.gap_after, diagnosis.seconds);
 }
 

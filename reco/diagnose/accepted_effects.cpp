@@ -87,11 +87,7 @@ std::optional<AcceptedEffects::Faded> AcceptedEffects::faded() const {
   for (std::size_t e = 0; e + 1 < effects_.size(); ++e) {
     const NamedEffect& effect = effects_[e];
     if (effect.suspect.place.count("depth") || is_layered(effect)) continue;
-    double most = 0;
-    for (std::size_t i = 0; i < effect.values.size(); ++i)
-      most = std::max(
-          most, std::abs(effect.values[i] - null_number(effect.parameters[i], base_)) / effect.errors[i]);
-    if (most < still_there) return Faded{e, most};
+    if (effect.significance < still_there) return Faded{e, effect.significance};
   }
   return {};
 }

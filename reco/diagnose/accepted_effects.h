@@ -57,7 +57,7 @@ class AcceptedEffects {
   // An effect that is hardly there any more now that the last one is: that one may have explained it away.
   struct Faded {
     std::size_t effect;
-    double sigmas;  // that the parameter which changes most is away from changing nothing
+    double sigmas;  // of all its parameters together
   };
   std::optional<Faded> faded() const;
   void drop(std::size_t effect);

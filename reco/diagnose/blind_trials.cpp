@@ -178,6 +178,8 @@ class Trials {
     const LightBudget light = options.light;
     static_cast<RunSettings&>(options) = options_;
     options.light = light;
+    // Another survey for each: an unlucky one would mislead them all.
+    options.seed = options_.seed * 1000003 + number + 1;
     options.alpha = options_.alpha, options.floor = options_.floor, options.draws = options_.draws;
     options.folds = std::min(options_.folds, static_cast<int>(runs_.size()));
     return full_trial(base_, full.hidden, full.outside.has_value(), data, options,

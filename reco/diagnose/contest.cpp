@@ -76,8 +76,11 @@ void hold_contest(const Model& base, double noise, const FitBeside& fit, std::ve
           leader - parameters_in(candidates[best].trial) >= challenger - parameters_in(candidates[i].trial);
       const std::size_t loser = stays ? i : best;
       if (!stays) {
-        // Those that the last best has beaten have not met the new one.
-        for (std::size_t k = 0; k < i; ++k) candidates[k].trial.lost.reset();
+        // Those that the last best has beaten have not met the new one: narrow losers may be as good.
+        for (std::size_t k = 0; k < i; ++k) {
+          candidates[k].trial.untold = lost_narrowly(candidates[k].trial);
+          candidates[k].trial.lost.reset();
+        }
         best = i;
       }
       candidates[loser].trial.lost = stays ? Duel{leader, challenger} : Duel{challenger, leader};

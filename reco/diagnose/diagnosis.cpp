@@ -336,9 +336,21 @@ class Diagnoser {
                                             text_of(effects[faded->effect].suspect),
                                             text_of(effects.back().suspect), faded->sigmas));
       drop(faded->effect);
-      // What it had taken goes to the others.
-      accepted_.take(fit(data_, accepted_.parameters(), rounds));
+      refit();
     }
+  }
+  // What a dropped effect had taken goes to the others.
+  void refit() {
+    while (!accepted_.empty()) try {
+        accepted_.take(fit(data_, accepted_.parameters(), rounds));
+        return;
+      } catch (const InputError&) {
+        const std::size_t last = accepted_.effects().size() - 1;
+        result_.remarks.push_back(
+            fmt::format("{} was given up: no physical ice without what was given up before",
+                        text_of(accepted_.effects()[last].suspect)));
+        drop(last);
+      }
   }
   void drop(std::size_t effect) {
     accepted_.drop(effect);
@@ -352,16 +364,17 @@ class Diagnoser {
     result_.remarks.push_back(
         fmt::format("{} was given up: {}", text_of(accepted_.effects()[effect].suspect), why));
     drop(effect);
+    result_.looked_at_improved = false;
   }
 
   void finish(bool unexplained) {
     // Where all that may be added still leaves a gap, each has taken a part of what none of them is.
     const std::size_t named = accepted_.effects().size(), looks = result_.steps.size();
+    const bool found = named > 0;
     if (unexplained && looks > static_cast<std::size_t>(options_.most_effects) && named > 1)
       while (!accepted_.empty())
         give_up(0, fmt::format("{} effects together leave a gap, and none of them names it", named));
-    const bool found = !accepted_.empty();
-    measure_gaps();
+    measure_gaps(found);
     // A gap whose names were given up is there all the same.
     if (found) unexplained = unexplained || accepted_.empty() || *result_.p_of_rest < options_.alpha / 2;
     result_.improved = accepted_.model();
@@ -380,7 +393,10 @@ class Diagnoser {
       for (const Trial& trial : step.trials) {
         const std::string& rival = trial.suspect.effect;
         if (rival == winner.suspect.effect) continue;  // at another place
-        if (!is_there_as_well(trial) || !contains(result_.verdict, rival)) continue;
+        const bool named = std::ranges::any_of(result_.effects, [&](const NamedEffect& effect) {
+          return effect.suspect.effect == rival && is_same_place(effect.suspect.place, trial.suspect.place);
+        });
+        if (!is_there_as_well(trial) || !named) continue;
         std::erase(winner.group, rival);
         std::erase_if(winner.separations, [&](const Separation& other) { return other.other == rival; });
       }
@@ -388,49 +404,58 @@ class Diagnoser {
   }
 
   // Gives up what makes light worse that the fit has not seen, by more than the noise of the simulations: the
-  // last effect first, which may have come by what an earlier one has left.
-  void measure_gaps() {
+  // last effect first, which may have come by what an earlier one has left. `found`: anything was ever named.
+  void measure_gaps(bool found) {
     RunSettings settings = options_;
-    if (!accepted_.empty()) settings.light.light *= light_of_gap, settings.light.least_hits *= light_of_gap;
+    if (found) settings.light.light *= light_of_gap, settings.light.least_hits *= light_of_gap;
     const ModelJudge judge(base_, data_, look_, settings, gap_stream);
     const std::vector<ModelJudge::Fit> of_base = fits_of(base_, data_, judge);
     result_.gaps = gaps_of(data_, of_base);
     for (const RunGap& run : result_.gaps) result_.gap_before += run.before;
     result_.gap_after = result_.gap_before;
-    if (accepted_.empty()) return;
+    result_.gap_scatter = 2 * right_fit(of_base).scatter;
+    result_.folds = std::min(options_.folds, static_cast<int>(data_.runs.size()));
+    if (!found) return;
     const double noise = 2 * judge.noise_of_differences();
     while (!accepted_.empty()) {
       measure_held_out(judge);
       if (result_.gap_after <= result_.gap_before + noise) break;
-      give_up(accepted_.effects().size() - 1,
-              fmt::format("runs that were held out fit worse with it (a gap of {:.1f} instead of {:.1f})",
-                          result_.gap_after, result_.gap_before));
+      give_up(
+          accepted_.effects().size() - 1,
+          fmt::format("runs that were held out fit worse with what was added (a gap of {:.1f}) than without "
+                      "({:.1f})",
+                      result_.gap_after, result_.gap_before));
       for (RunGap& run : result_.gaps) run.after = run.before;
       result_.gap_after = result_.gap_before;
-      if (!accepted_.empty()) accepted_.take(fit(data_, accepted_.parameters(), rounds));
+      refit();
     }
     result_.p_of_rest = p_of_fit(accepted_.empty() ? of_base : fits_of(accepted_.model(), data_, judge));
   }
 
   // A look has hardly more light than the data, and its noise hides what this shows.
   static double p_of_fit(const std::vector<ModelJudge::Fit>& fits) {
-    double neg_llh = 0, variance = 0;
+    double neg_llh = 0;
+    for (const ModelJudge::Fit& fit : fits) neg_llh += fit.measured.neg_llh;
+    return probability_of(neg_llh, right_fit(fits));
+  }
+  // Of all runs together, were the model true.
+  static ExpectedFit right_fit(const std::vector<ModelJudge::Fit>& fits) {
+    double variance = 0;
     ExpectedFit right;
     for (const ModelJudge::Fit& fit : fits) {
-      neg_llh += fit.measured.neg_llh;
       right.mean += fit.expected;
       variance += fit.scatter * fit.scatter;
     }
     right.scatter = std::sqrt(variance);
-    return probability_of(neg_llh, right);
+    return right;
   }
 
   void measure_held_out(const ModelJudge& judge) {
-    const int folds = std::min(options_.folds, static_cast<int>(data_.runs.size()));
+    const int folds = result_.folds;
     const HeldOutRuns held_out(data_, *base_.detector, folds);
     const auto model_without = [&](int fold) {
       stage(0.9 + 0.1 * fold / folds, 0.9 + 0.1 * (fold + 1) / folds, "holding runs out");
-      return folds == 1 ? accepted_.model() : fitted_to(held_out.rest(data_, fold));
+      return folds == 1 ? accepted_.model() : fitted_to(held_out.rest(data_, fold), fold);
     };
     hold_out(held_out, judge, model_without, result_.gaps);
     result_.gap_after = 0;
@@ -438,13 +463,17 @@ class Diagnoser {
   }
 
   // The base where the other runs lead to no ice that can be: they tell nothing of this then.
-  Model fitted_to(const FlasherData& rest) {
+  Model fitted_to(const FlasherData& rest, int fold) {
     std::vector<IceParameter> parameters = accepted_.parameters();
     for (IceParameter& p : parameters) expect_no_change(p);
     try {
       const IceFit blind = fit(rest, parameters, rounds_of_folds, light_of_folds);
       return with_parameters(base_, blind.parameters, blind.numbers);
     } catch (const InputError&) {
+      result_.remarks.push_back(
+          fmt::format("Without the runs of group {} of {} the others fit to no physical ice: these runs are "
+                      "judged by the base",
+                      fold + 1, result_.folds));
       return base_;
     }
   }

@@ -21,7 +21,7 @@
 namespace floe {
 
 // Changes whenever results of diagnoses or of their trials do.
-constexpr int diagnosis_revision = 4;
+constexpr int diagnosis_revision = 5;
 
 struct DiagnosisOptions : RunSettings {
   DiagnosisOptions() { light = {2, 2e4, 2e11}; }
@@ -50,6 +50,12 @@ struct Diagnosis {
   std::vector<DiagnosisStep> steps;  // the base model's first
   std::vector<RunGap> gaps;          // held out
   double gap_before = 0, gap_after = 0;
+  double gap_scatter = 0;  // deviation of a gap, had the model been true
+  // Groups that runs were held out in. 1: none were, and gaps after are of a model that was fitted to these
+  // runs.
+  int folds = 1;
+  // Whether the last step looked at the improved model: not when names were given up after it.
+  bool looked_at_improved = true;
   // Of so bad a fit of the improved model to all runs, measured with the light of gaps; of the base model
   // when everything that was added has been given up again. None: nothing was added.
   std::optional<double> p_of_rest;
@@ -59,7 +65,9 @@ struct Diagnosis {
   EffectGroups beside_ice;  // of the effects, those that no file of an ice directory can hold but floe.toml
   double seconds = 0;
 
+  // A share that means something only where the gap is larger than its scatter; see has_clear_gap().
   double closed() const { return gap_before != 0 ? 1 - gap_after / gap_before : 0; }
+  bool has_clear_gap() const { return gap_before > 3 * gap_scatter; }
 };
 
 // Throws UsageError for options out of range, NoResult when no run has light.

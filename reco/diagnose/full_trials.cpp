@@ -4,20 +4,18 @@
 
 namespace floe {
 
-namespace {
-
-void add_values(const HiddenEffect& hidden, const NamedEffect& named, std::vector<FullTrial::Value>& values) {
+std::vector<FullTrial::Value> values_of(const HiddenEffect& hidden, const NamedEffect& named) {
+  std::vector<FullTrial::Value> values;
   for (const auto& [name, value] : hidden.values) {
-    if (named.mean && named.mean->name == name) {
+    if (named.mean && named.suspect.effect + "." + named.mean->name == name) {
       values.push_back({name, value, named.mean->value, named.mean->error});
       continue;
     }
     for (std::size_t i = 0; i < named.parameters.size(); ++i)
       if (named.parameters[i].name == name) values.push_back({name, value, named.values[i], named.errors[i]});
   }
+  return values;
 }
-
-}  // namespace
 
 bool NamedInTrial::is(const HiddenEffect& hidden) const {
   constexpr std::size_t largest_group = 3;
@@ -53,15 +51,17 @@ FullTrial full_trial(const Model& base, const std::vector<HiddenEffect>& hidden,
   trial.hidden = hidden;
   trial.outside = outside;
   trial.verdict = found.verdict;
-  trial.closed = found.closed();
+  if (found.has_clear_gap()) trial.closed = found.closed();
   trial.remarks = found.remarks;
   trial.seconds = found.seconds;
   for (const NamedEffect& named : found.effects) {
     const Suspect& suspect = named.suspect;
     trial.named.push_back({suspect.effect, text_of(suspect), suspect.place, named.group});
-    for (const HiddenEffect& effect : hidden)
-      if (suspect.effect == effect.effect && is_same_place(suspect.place, effect.place))
-        add_values(effect, named, trial.values);
+    for (const HiddenEffect& effect : hidden) {
+      if (suspect.effect != effect.effect || !is_same_place(suspect.place, effect.place)) continue;
+      const std::vector<FullTrial::Value> values = values_of(effect, named);
+      trial.values.insert(trial.values.end(), values.begin(), values.end());
+    }
   }
   return trial;
 }

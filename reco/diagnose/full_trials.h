@@ -2,6 +2,7 @@
 // light goes through.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,7 +44,7 @@ struct FullTrial {
     double hidden = 0, found = 0, error = 0;
   };
   std::vector<Value> values;
-  double closed = 0;                 // of the held-out gap
+  std::optional<double> closed;      // share of the held-out gap; none where that was no larger than chance
   std::vector<std::string> remarks;  // why names were given up
   double seconds = 0;
 
@@ -55,6 +56,10 @@ struct FullTrial {
   // Whether what is outside of the catalogue was left unexplained, but an effect was named as well.
   bool named_as_well() const { return outside && right() && !named.empty(); }
 };
+
+// Hidden values beside those that a diagnosis fitted to the same parameters; birefringence that was fitted
+// layer by layer counts by its mean.
+std::vector<FullTrial::Value> values_of(const HiddenEffect& hidden, const NamedEffect& named);
 
 FullTrial full_trial(const Model& base, const std::vector<HiddenEffect>& hidden, bool outside,
                      const FlasherData& data, const DiagnosisOptions& options, const Progress& progress = {});

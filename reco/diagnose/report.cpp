@@ -100,7 +100,8 @@ std::string inline_svg(const std::string& document) {
 std::string pictures(const Diagnosis& diagnosis) {
   std::string text = "<div class=plots>\n";
   const DiagnosisStep& first = diagnosis.steps.front();
-  const DiagnosisStep* last = diagnosis.steps.size() > 1 ? &diagnosis.steps.back() : nullptr;
+  const bool improved = diagnosis.steps.size() > 1 && diagnosis.looked_at_improved;
+  const DiagnosisStep* last = improved ? &diagnosis.steps.back() : nullptr;
   for (const char* axis : {"azimuth", "depth", "distance", "arrival angle"})
     if (const ResidualProfile* before = profile_of(first, axis))
       text += inline_svg(ProfilePlot(*before, last ? profile_of(*last, axis) : nullptr).str()) + "\n";
@@ -182,13 +183,36 @@ std::string step_text(const Diagnosis& diagnosis, std::size_t i) {
   return text;
 }
 
+// Which runs gaps are of, in words.
+const char* judged_runs(const Diagnosis& diagnosis) {
+  return diagnosis.folds > 1 ? "runs that were held out" : "the runs that were fitted";
+}
+
+std::string closing_text(const Diagnosis& diagnosis) {
+  if (diagnosis.has_clear_gap())
+    return fmt::format("{:.0f}% of the gap in {} closes", 100 * diagnosis.closed(), judged_runs(diagnosis));
+  return fmt::format("the gap in {} goes from {:.1f} to {:.1f}, where chance makes +- {:.1f}",
+                     judged_runs(diagnosis), diagnosis.gap_before, diagnosis.gap_after,
+                     diagnosis.gap_scatter);
+}
+
+std::string gap_text(const Diagnosis& diagnosis) {
+  return fmt::format(
+      "<p>Deviance of each run above what it would be on average if the model were true, which scatters by "
+      "{:.1f} "
+      "for all of them; after: {}.</p>\n",
+      diagnosis.gap_scatter,
+      diagnosis.folds > 1 ? "of models that were fitted to other runs"
+                          : "of the model that was fitted to these runs, as none was held out");
+}
+
 std::string gap_table(const Diagnosis& diagnosis) {
   std::vector<std::vector<std::string>> rows;
   for (const RunGap& run : diagnosis.gaps)
     rows.push_back({run.run, fmt::format("{:.1f}", run.before), fmt::format("{:.1f}", run.after)});
   rows.push_back(
       {"all", fmt::format("{:.1f}", diagnosis.gap_before), fmt::format("{:.1f}", diagnosis.gap_after)});
-  return table({"run, held out", "gap before", "gap after"}, rows);
+  return table({diagnosis.folds > 1 ? "run, held out" : "run", "gap before", "gap after"}, rows);
 }
 
 constexpr const char* style =
@@ -212,8 +236,8 @@ std::string verdict_sentence(const Diagnosis& diagnosis, double alpha) {
   if (text.empty())
     return fmt::format("Something is missing (p = {}) that no effect of the catalogue explains.",
                        p_text(diagnosis.p_value));
-  return fmt::format("Missing: {} (p = {} for the base model). {:.0f}% of the gap in held-out runs closes{}.",
-                     text, p_text(diagnosis.p_value), 100 * diagnosis.closed(),
+  return fmt::format("Missing: {} (p = {} for the base model); {}{}.", text, p_text(diagnosis.p_value),
+                     closing_text(diagnosis),
                      unexplained ? "; something remains that no effect of the catalogue explains" : "");
 }
 
@@ -236,10 +260,7 @@ std::string report_html(const Diagnosis& diagnosis, const DiagnosisOptions& opti
     for (const Separation& separation : effect.separations)
       text += "<p>" + markup_escaped(separation.sentence) + "</p>\n";
   for (const std::string& remark : diagnosis.remarks) text += "<p>" + markup_escaped(remark) + ".</p>\n";
-  text +=
-      "<h2>Gap before and after</h2>\n<p>Deviance of each run above what it would be on average if the "
-      "model were true; after: of models that were fitted to other runs.</p>\n" +
-      gap_table(diagnosis);
+  text += "<h2>Gap before and after</h2>\n" + gap_text(diagnosis) + gap_table(diagnosis);
   for (std::size_t i = 0; i < diagnosis.steps.size(); ++i) text += step_text(diagnosis, i);
   if (!diagnosis.left_out.empty()) {
     text += "<h2>Left out</h2>\n<ul>\n";

@@ -104,7 +104,8 @@ class Surveyor {
     result.scale = measured.nuisances.brightness / photons;
     result.dispersion = dispersion(simulated);
     result.model_error = settings_.model_error;
-    result.draws = PhotonDraws(simulated, bins, result.scale, run.run.oversize > 1, run.charge_dispersion);
+    result.draws = PhotonDraws(simulated, bins, result.scale, run.run.oversize > 1, run.charge_dispersion,
+                               result.model_error);
     result.data_dispersion = (run.run.oversize > 1 ? result.dispersion : 1) * run.charge_dispersion;
     measure_slopes(request(r, 1, photons), simulated, result);
     survey_.bins += bins.size();

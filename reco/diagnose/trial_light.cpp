@@ -11,7 +11,8 @@ std::vector<SimulatedHit> TrialLight::hits_of(const Model& model, std::size_t ru
                                               double photons, const Survey* survey) const {
   RunRequest simulated = request(run, stream);
   simulated.photons = photons;
-  if (survey) simulated.noise = noise_window(survey->runs[run].data, photons);
+  // Noise of all flashes goes with the light of all.
+  if (survey) simulated.noise = noise_window(survey->runs[run].data, runs_[run].photons());
   return simulate_run(model, simulated).hits;
 }
 

@@ -56,7 +56,8 @@ ModelJudge::Fit ModelJudge::judge(const Model& model, std::size_t run) const {
   delay(simulated, fit.measured.nuisances.time_zero);
   const double factor = dispersion(simulated), brightness = fit.measured.nuisances.brightness;
   const PhotonDraws pseudo(simulated, views_[run].bins, brightness / photons_[run],
-                           data_.runs[run].run.oversize > 1, data_.runs[run].charge_dispersion);
+                           data_.runs[run].run.oversize > 1, data_.runs[run].charge_dispersion,
+                           settings_.model_error);
   std::vector<double> drawn(draws);
   const int threads = settings_.threads > 0 ? settings_.threads : omp_get_num_procs();
 #pragma omp parallel for num_threads(threads)

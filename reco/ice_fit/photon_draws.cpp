@@ -37,11 +37,12 @@ class SmallPoisson {
 }  // namespace
 
 PhotonDraws::PhotonDraws(const SimulatedRun& simulated, const RunBins& bins, double scale, bool whole_photons,
-                         double charge_dispersion)
+                         double charge_dispersion, double model_error)
     : size_(bins.size()),
       scale_(scale),
       whole_photons_(whole_photons),
-      charge_dispersion_(charge_dispersion) {
+      charge_dispersion_(charge_dispersion),
+      model_error_(model_error) {
   const auto& hits = simulated.hits;
   for (std::size_t i = 0; i < hits.size();) {
     const std::uint64_t photon = hits[i].photon;
@@ -73,12 +74,19 @@ FoldedCounts PhotonDraws::draw(std::mt19937_64& random) const {
   if (!whole_photons_)
     for (Eigen::Index b = 0; b < size_; ++b)
       if (expected(b) > 0) counts.data(b) = std::poisson_distribution<int>(expected(b))(random);
+  if (model_error_ > 0) add_model_error(counts.data, random);
   if (charge_dispersion_ > 1)
     for (Eigen::Index b = 0; b < size_; ++b) {
       const double width = std::sqrt((charge_dispersion_ - 1) * counts.data(b));
       counts.data(b) = std::max(0.0, counts.data(b) + std::normal_distribution<double>(0, 1)(random) * width);
     }
   return counts;
+}
+
+void PhotonDraws::add_model_error(Eigen::VectorXd& counts, std::mt19937_64& random) const {
+  const double width = std::sqrt(std::log1p(model_error_ * model_error_));
+  std::lognormal_distribution<double> factor(-0.5 * width * width, width);
+  for (Eigen::Index b = 0; b < size_; ++b) counts(b) *= factor(random);
 }
 
 }  // namespace floe

@@ -11,6 +11,7 @@
 #include "reco/diagnose/score_test.h"
 #include "reco/diagnose/separation.h"
 #include "reco/diagnose/suspects.h"
+#include "reco/diagnose/trial_light.h"
 #include "reco/ice_fit/ice_fit.h"
 #include "reco/ice_fit/ice_point.h"
 #include "reco/ice_fit/model_judge.h"
@@ -75,6 +76,26 @@ TEST_F(OfOneFlasher, DarkNoiseIsNotTakenForLight) {
   ASSERT_GT(scout.simulated.hits.size(), 1.2 * static_cast<double>(of_light.simulated.hits.size()));
   EXPECT_EQ(bins_of(scout, run, photons_).receivers().size(),
             bins_of(of_light, run, photons_).receivers().size());
+}
+
+// A survey with four times the light of the data has four times their dark noise, too.
+TEST_F(OfOneFlasher, NoiseOfTrialsGoesWithTheirLight) {
+  constexpr double more = 4;
+  RunData run = data_.runs[0];
+  run.repeats = 100, run.noise_rate = 600, run.first = 0, run.last = 1e4;
+  const std::vector<RunOfTrials> runs{{run_, 1}};
+  const TrialLight trials(*model_.detector, runs, settings_);
+  Survey survey;
+  survey.runs.emplace_back();
+  survey.runs[0].data = run;
+  survey.runs[0].photons = more * photons_;
+  const std::vector<SimulatedHit> hits = trials.hits(model_, data_stream, &survey)[0];
+  ASSERT_GT(double(hits.size()), 1.2 * run.charge);
+  survey.runs[0].bins = RunBins(hits, 1, run.used, {});
+  const double of_data = survey.runs[0].bins.counts(hits).sum();
+  const double of_survey = trials.in_bins(model_, data_stream + 1, survey)[0].sum();
+  // Widened modules see some photons more than once: counts scatter by a few per cent more than Poisson's.
+  EXPECT_NEAR(of_survey, more * of_data, 4 * 1.1 * std::sqrt(more * of_data + more * more * of_data));
 }
 
 // Pulses that come a microsecond late are those of the same light: counts and slopes are as before.

@@ -79,6 +79,26 @@ TEST_F(Contest, WhatBothCouldBeIsLostNarrowly) {
   EXPECT_FALSE(is_there_as_well(candidates[1].trial));
 }
 
+// B loses narrowly to A, which C beats: B has not met C, and may be as good.
+TEST_F(Contest, WhoLostNarrowlyToABeatenLeaderIsNotTold) {
+  auto candidates = rivals(186);
+  candidates.push_back(candidate("birefringence.strength", 1.2, 187));
+  int duels = 0;
+  hold_contest(
+      base_, noise_,
+      [&](const auto&, const auto&) {
+        return ++duels == 1 ? fit_with({0.2, 0.43}, {0.05, 0.05})  // 16 and 11.6
+                            : fit_with({0.05, 1.5}, {0.05, 0.1});  // 1 and 25
+      },
+      candidates);
+  EXPECT_EQ(duels, 2);
+  EXPECT_EQ(candidates[0].trial.suspect.effect, "birefringence.strength");
+  for (const std::size_t loser : {1, 2}) {
+    const bool beaten_leader = candidates[loser].trial.suspect.effect == "scattering-anisotropy";
+    EXPECT_EQ(lost_narrowly(candidates[loser].trial), !beaten_leader);
+  }
+}
+
 // It is an alternative to the winner until it comes in itself.
 TEST_F(Contest, WhatIsNeededBesideTheWinnerIsThereAsWell) {
   auto candidates = rivals(186);

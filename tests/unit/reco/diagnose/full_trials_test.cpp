@@ -63,6 +63,24 @@ TEST(FullTrial, SaysWhenTheNameIsOfAnotherPlace) {
       trial_of({band}, {named("absorption-layer", {}, {{"depth", 1835}, {"width", 20}})}).elsewhere());
 }
 
+TEST(FullTrial, BirefringenceOfLayersIsJudgedByItsMean) {
+  HiddenEffect hid = hidden("birefringence");
+  hid.values = {{"birefringence.strength", 1.4}};
+  NamedEffect found;
+  found.suspect.effect = "birefringence";
+  found.parameters.resize(2);
+  found.parameters[0].name = "birefringence 1775 m", found.parameters[1].name = "birefringence 1825 m";
+  found.values = {1.3, 1.6}, found.errors = {0.1, 0.2};
+  EXPECT_TRUE(values_of(hid, found).empty());
+  found.mean = NamedEffect::Mean{"strength", 1.45, 0.1};
+  const std::vector<FullTrial::Value> values = values_of(hid, found);
+  ASSERT_EQ(values.size(), 1u);
+  EXPECT_EQ(values[0].name, "birefringence.strength");
+  EXPECT_EQ(values[0].hidden, 1.4);
+  EXPECT_EQ(values[0].found, 1.45);
+  EXPECT_EQ(values[0].error, 0.1);
+}
+
 TEST(FullTrial, OfNothingIsRightWhenSilent) {
   EXPECT_TRUE(trial_of({hidden("")}, {}).right());
   EXPECT_FALSE(trial_of({hidden("")}, {}, true).right());

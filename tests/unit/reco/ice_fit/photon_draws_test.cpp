@@ -80,5 +80,17 @@ TEST_F(PhotonDrawsTest, WholePhotonsAreDrawn) {
   EXPECT_NEAR(charged.variance / (1.4 * 1.5 * scale * photons), 1, error);
 }
 
+// Bins that may be off by a tenth: their mean stays, their variance gains (0.1 n)^2, with the Poisson part
+// larger by 1.01.
+TEST_F(PhotonDrawsTest, ModelErrorIsDrawn) {
+  constexpr double model_error = 0.1;
+  const auto of_first = [](const FoldedCounts& c) { return c.data(0); };
+  const auto found = moments_of(PhotonDraws(light_, bins_, 1, false, 1, model_error), number_, of_first);
+  const double variance = 1.01 * photons + model_error * model_error * photons * photons;
+  EXPECT_NEAR(found.mean, photons, 4 * std::sqrt(variance / number_));
+  EXPECT_NEAR(found.variance / variance, 1,
+              5 * std::sqrt(2.5 / number_));  // kurtosis of such a log-normal: 3.2
+}
+
 }  // namespace
 }  // namespace floe::test
