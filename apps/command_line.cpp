@@ -6,6 +6,8 @@
 #include <cctype>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
+#include <system_error>
 
 #include "data/base/error.h"
 #include "data/base/words.h"
@@ -52,7 +54,35 @@ std::string unknown_word(const CLI::App& app, bool is_command, const std::string
   return message;
 }
 
+bool is_output(const CLI::Option& option) {
+  constexpr std::string_view outputs[] = {"output",         "json", "picture", "skymap",
+                                          "skymap-picture", "rows", "into"};
+  return std::ranges::any_of(option.get_lnames(),
+                             [&](const std::string& name) { return std::ranges::count(outputs, name) > 0; });
+}
+
+std::filesystem::path place_of(const std::string& file) {
+  std::error_code failed;
+  const std::filesystem::path place =
+      std::filesystem::weakly_canonical(std::filesystem::absolute(file), failed);
+  return failed ? std::filesystem::path(file) : place;
+}
+
 }  // namespace
+
+void expect_outputs_apart(const CLI::App& command) {
+  const std::vector<const CLI::Option*> options = command.get_options();
+  for (const CLI::Option* output : options) {
+    if (!is_output(*output)) continue;
+    for (const std::string& file : output->results())
+      for (const CLI::Option* other : options)
+        if (other != output && std::ranges::any_of(other->results(), [&](const std::string& value) {
+              return !value.empty() && place_of(value) == place_of(file);
+            }))
+          throw UsageError(fmt::format("{} and {} are the same file, {}. Give the output a name of its own",
+                                       output->get_name(), other->get_name(), file));
+  }
+}
 
 std::string quoted_command_line(int argc, char** argv) {
   std::string line = "floe";

@@ -15,4 +15,8 @@ std::string quoted_command_line(int argc, char** argv);
 // line and what was perhaps meant; returns the exit code.
 int report_parse_error(const CLI::App& app, const CLI::ParseError& error);
 
+// Throws UsageError when an output of a subcommand, which has been parsed, is a file that another of its
+// options names: an input would be lost, or one of two outputs.
+void expect_outputs_apart(const CLI::App& command);
+
 }  // namespace floe

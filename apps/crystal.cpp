@@ -1,6 +1,7 @@
 // floe crystal: what grains of ice do to light, from first principles.
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <limits>
 #include <memory>
 
@@ -140,7 +141,10 @@ void print(const CrystalCommand& command, const std::vector<CrystalStudy>& studi
     fmt::print("{}", crystal_tables(studies.front()));
   else
     fmt::print("{}", crystal_library(studies, estimator_of(command)));
-  if (command.ice.folder) fmt::print("The new ice model is {}\n", *command.ice.folder);
+  if (!command.ice.folder) return;
+  const bool with_detector = std::filesystem::exists(std::filesystem::path(*command.ice.folder) / "geo-f2k");
+  fmt::print("The new ice model is {}{}\n", *command.ice.folder,
+             with_detector ? "" : "; it has no detector of its own: use it with --detector ic86, or another");
 }
 
 void run_crystal(CrystalCommand& command) {

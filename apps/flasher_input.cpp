@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "apps/option_values.h"
 #include "data/base/error.h"
 #include "data/event_files.h"
@@ -10,7 +12,13 @@
 namespace floe {
 
 std::vector<Event> read_flasher_file(const std::string& file) {
-  if (file.ends_with(".h5")) return read_event_file(file).events;
+  if (file.ends_with(".h5")) {
+    std::vector<Event> events = read_event_file(file).events;
+    if (std::none_of(events.begin(), events.end(), [](const Event& e) { return e.flasher.has_value(); }))
+      throw InputError({file}, fmt::format("no flasher run among its {} events", events.size()),
+                       "flasher runs, as floe simulate --flashers RUNS.toml writes them");
+    return events;
+  }
   std::vector<Event> events;  // texts of flasher runs have lines that say where each begins
   for_each_flasher_run(file, [&](const Event& event) { events.push_back(event); });
   return events;

@@ -49,6 +49,8 @@ void add_commands(CLI::App& app, const std::string& command_line) {
   floe::add_merge(app, command_line);
   floe::add_validate(app);
   floe::add_view(app);
+  for (CLI::App* command : app.get_subcommands({}))
+    command->parse_complete_callback([command] { floe::expect_outputs_apart(*command); });
 }
 
 int run(const std::string& command_line, int argc, char** argv) {

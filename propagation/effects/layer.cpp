@@ -11,12 +11,13 @@ namespace floe {
 namespace {
 
 std::vector<EffectParameter> layer_parameters(const IceTables& ice, const std::string& what) {
-  const double middle = ice.layers.empty() ? 0 : (ice.layers.front().depth + ice.layers.back().depth) / 2;
+  const bool none = ice.layers.empty();
+  const double top = none ? 0 : ice.layers.front().depth, bottom = none ? 5000 : ice.layers.back().depth;
   constexpr double a_layer = 20;  // the light knows little of what lies further off
-  return {
-      {"depth", "m", "of the middle of the changed ice, below the surface", middle, 0, 5000, false, a_layer},
-      {"width", "m", "of the changed ice, from its top to its bottom", 50, 1, 2000, false, a_layer},
-      {"factor", "", "multiplies " + what + " there", 1, 0.1, 10}};
+  return {{"depth", "m", "of the middle of the changed ice, below the surface", (top + bottom) / 2, top,
+           bottom, false, a_layer},
+          {"width", "m", "of the changed ice, from its top to its bottom", 50, 1, 2000, false, a_layer},
+          {"factor", "", "multiplies " + what + " there", 1, 0.1, 10}};
 }
 
 // Calls change(row, factor) for the rows in the changed ice. One that its edge cuts gets the factor in

@@ -12,17 +12,18 @@ namespace floe {
 
 namespace {
 
-// Throws unless the table can be a curve; `where` is said for each point.
+// Throws unless the table can be a curve; `where` is said for each point, with `at` in units of `unit`.
 template <typename Where>
-void expect_curve(const std::vector<MeasuredCurve::Point>& points, const Location& whole, Where where) {
+void expect_curve(const std::vector<MeasuredCurve::Point>& points, const Location& whole, double unit,
+                  Where where) {
   bool light = false;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto [at, intensity] = points[i];
     if (!std::isfinite(at) || !std::isfinite(intensity) || intensity < 0)
-      throw InputError(where(i), fmt::format("intensity {} at {}", intensity, at),
+      throw InputError(where(i), fmt::format("intensity {:g} at {:g}", intensity, at / unit),
                        "finite numbers, the intensity not below 0");
     if (i > 0 && !(at > points[i - 1].at))
-      throw InputError(where(i), fmt::format("{} after {}", at, points[i - 1].at),
+      throw InputError(where(i), fmt::format("{:g} after {:g}", at / unit, points[i - 1].at / unit),
                        "a first column that rises from line to line");
     light = light || intensity > 0;
   }
@@ -41,7 +42,7 @@ MeasuredCurve read_curve(const std::filesystem::path& file, const char* first, d
     expect_range(line, at, low, high, first);
     points.push_back({at * unit, parse_number(line, 1, "relative intensity")});
   }
-  expect_curve(points, {file.string()}, [&](std::size_t i) { return lines[i].where; });
+  expect_curve(points, {file.string()}, unit, [&](std::size_t i) { return lines[i].where; });
   return MeasuredCurve(std::move(points));
 }
 
@@ -85,7 +86,7 @@ double end_of_beam(const MeasuredCurve& beam) {
 }  // namespace
 
 MeasuredCurve::MeasuredCurve(std::vector<Point> points) : points_(std::move(points)) {
-  expect_curve(points_, {"measured curve"}, [](std::size_t) { return Location{"measured curve"}; });
+  expect_curve(points_, {"measured curve"}, 1, [](std::size_t) { return Location{"measured curve"}; });
 }
 
 double MeasuredCurve::operator()(double at) const {

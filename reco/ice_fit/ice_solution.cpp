@@ -173,8 +173,10 @@ IceSolution solve_ice(const ScoreSystem& system, const std::vector<IceParameter>
 
   IceSolution solution;
   solution.step = best_within(root.matrixU(), root.matrixL().solve(pull), low, high);
-  solution.covariance =
-      sandwich(both, system.noise + prior.A.transpose() * prior.A).topLeftCorner(count, count);
+  // What neither light nor priors tell of is not known, rather than known without noise.
+  Eigen::MatrixXd known = system.noise + prior.A.transpose() * prior.A;
+  known.diagonal().array() += no_information;
+  solution.covariance = sandwich(both, known).topLeftCorner(count, count);
   Eigen::MatrixXd weak = light;
   Eigen::MatrixXd noise = system.noise;
   for (Eigen::MatrixXd* matrix : {&weak, &noise}) matrix->diagonal().array() += hardly_information;

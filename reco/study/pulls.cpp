@@ -84,7 +84,9 @@ PullSummary summary_of(std::span<const Vector7> pulls_of_events) {
   }
   result.width_error = standard_deviation(widths);
   result.core_error = standard_deviation(cores);
-  result.coverage_error = standard_deviation(coverages);
+  // Where all values are inside, or none, draws do not scatter: no less than for independent values.
+  result.coverage_error =
+      std::max(standard_deviation(coverages), binomial_error(7 * double(pulls_of_events.size())));
   return result;
 }
 

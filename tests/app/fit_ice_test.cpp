@@ -201,7 +201,7 @@ TEST_F(FitIce, RefusesWhatMakesNoSense) {
   EXPECT_EQ(text_of("full/file"), "kept");
   // Events that are no flasher runs.
   floe_well("simulate --cascade 0,0,-300,70,130,1e3 --oversize 10 --quiet -o cascade.h5");
-  refuses("cascade.h5 -o new", 4, "no flasher run");
+  refuses("cascade.h5 -o new", 3, "cascade.h5: found no flasher run among its 1 events");
 }
 
 }  // namespace

@@ -92,6 +92,11 @@ const WrongCase cases[] = {
     {"ExportFolderMissing", "export event.hits -o no/such/out.dat", 5, "no/such"},
     {"ImportFolderMissing", "import event.hits -o no/such/out.h5", 5, "no/such"},
     {"FitJsonFolderMissing", "reconstruct event.hits --json no/such/out.json", 5, "no/such"},
+    {"OutputIsTheInput", "export event.hits -o ./event.hits", 2, "--output and EVENT are the same file"},
+    {"FitOverItsEvent", "reconstruct event.hits --json event.hits", 2, "--json and EVENT are the same file"},
+    {"TwoOutputsInOne", cascade + "--json out.h5", 2, "--output and --json are the same file, out.h5"},
+    {"BandOutsideTheIce", "info --with absorption-layer.factor=5,absorption-layer.depth=300", 2,
+     "absorption-layer.depth: found 300"},
     {"PictureFolderMissing", "compare event.hits --without tilt --picture no/such/out.svg", 5, "no/such"},
 };
 

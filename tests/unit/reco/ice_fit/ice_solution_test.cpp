@@ -128,6 +128,16 @@ TEST(IceSolution, LimitsAndTheLongestStepAreKept) {
   for (Eigen::Index i = 0; i < 5; ++i) EXPECT_LE(std::abs(solution.step(i)), 0.7);
 }
 
+// Two flashers know nothing of a band far above them, and no prior does: its error is large, not 0.
+TEST(IceSolution, WhatNothingTellsOfIsNotKnown) {
+  const ScoreSystem system = known(Eigen::Vector2d(0.5, 0), Eigen::Vector2d(0.1, inf));
+  const IceSolution solution = solve_ice(system, family("", 2), {0, 0}, {}, 10);
+  EXPECT_NEAR(std::sqrt(solution.covariance(0, 0)), 0.1, 1e-4);
+  EXPECT_NEAR(solution.step(1), 0, 1e-6);
+  EXPECT_GT(std::sqrt(solution.covariance(1, 1)), 100);
+  EXPECT_TRUE(std::isinf(solution.light_errors[1]));
+}
+
 // A run's brightness and time zero are held, too.
 TEST(IceSolution, BrightnessAndTimeZeroKeepTheirLongestSteps) {
   ScoreSystem system = known(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(1, 0.1));

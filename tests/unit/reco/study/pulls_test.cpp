@@ -52,5 +52,11 @@ TEST(Pulls, ErrorsOfPooledPullsKnowThatThoseOfAnEventBelongTogether) {
   expect_errors_of(summary_of(independent), 7 * events);
 }
 
+TEST(Pulls, CoverageOfAFewThatAreAllInsideIsNotExact) {
+  const std::vector<Vector7> inside(2, Vector7::Zero());
+  EXPECT_EQ(summary_of(inside).coverage, 1);
+  EXPECT_DOUBLE_EQ(summary_of(inside).coverage_error, binomial_error(14));
+}
+
 }  // namespace
 }  // namespace floe
