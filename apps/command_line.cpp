@@ -98,6 +98,8 @@ int report_parse_error(const CLI::App& app, const CLI::ParseError& error) {
   const auto unknown = used.remaining();
   std::string message =
       unknown.empty() ? error.what() : unknown_word(used, !commands.empty(), unknown.front());
+  if (const std::size_t twice = message.find(": At Most 1 required but received"); twice != message.npos)
+    message = message.substr(0, twice) + " is given more than once";
   if (unknown.empty() && commands.empty()) message = "no command given";
   const std::string called = commands.empty() ? "floe" : "floe " + used.get_name();
   fmt::print(stderr, "floe: error: {}\nSee {} --help\n", message, called);

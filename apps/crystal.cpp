@@ -240,8 +240,8 @@ void add_crystal(CLI::App& floe, const std::string& command_line) {
   add_ice_options(app, *command);
   add_walk_options(app, *command);
   add_merge_option(app, *command);
-  app.add_option("-o,--output", command->output, "File for patterns, their numbers and all photons")
-      ->type_name("FILE.h5");
+  add_output_file(app, "-o,--output", ".h5", "File for patterns, their numbers and all photons",
+                  command->output);
   add_picture(app, "--picture", "Patterns on the sphere; deflection and widths", command->picture);
   add_crystal_ice_options(app, command->ice);
   add_output_options(app, command->printed);

@@ -12,6 +12,10 @@ namespace {
 
 void create_folder(const fs::path& folder) {
   std::error_code failed;
+  const fs::path above = folder.has_parent_path() ? folder.parent_path() : fs::path(".");
+  if (!fs::is_directory(above, failed))
+    throw OutputError(fmt::format("{}: the folder {} does not exist. Create the folder first",
+                                  fs::path(folder).replace_extension().string(), above.string()));
   fs::create_directory(folder, failed);
   if (failed)
     throw OutputError(fmt::format("{}: cannot be made: {}. Choose a folder that can be written",

@@ -93,14 +93,20 @@ CLI::Option* add_integer(CLI::App& app, const std::string& name, std::int64_t lo
       ->type_name("N");
 }
 
-CLI::Option* add_picture(CLI::App& app, const std::string& name, const std::string& description,
-                         std::optional<std::string>& path) {
-  const auto set = [&path, option = split_list(name).back()](const std::string& text) {
-    if (!text.ends_with(".svg"))
-      throw UsageError(fmt::format("{}: found \"{}\"; expected a name that ends in .svg", option, text));
+CLI::Option* add_output_file(CLI::App& app, const std::string& name, const std::string& suffix,
+                             const std::string& description, std::optional<std::string>& path) {
+  const auto set = [&path, suffix, option = split_list(name).back()](const std::string& text) {
+    if (!text.ends_with(suffix))
+      throw UsageError(
+          fmt::format("{}: found \"{}\"; expected a name that ends in {}", option, text, suffix));
     path = text;
   };
-  return app.add_option_function<std::string>(name, set, description)->type_name("FILE.svg");
+  return app.add_option_function<std::string>(name, set, description)->type_name("FILE" + suffix);
+}
+
+CLI::Option* add_picture(CLI::App& app, const std::string& name, const std::string& description,
+                         std::optional<std::string>& path) {
+  return add_output_file(app, name, ".svg", description, path);
 }
 
 }  // namespace floe

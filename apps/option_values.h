@@ -40,7 +40,10 @@ CLI::Option* add_number(CLI::App& app, const std::string& name, const std::strin
                         const std::string& description, double& value);
 CLI::Option* add_integer(CLI::App& app, const std::string& name, std::int64_t low, std::int64_t high,
                          const std::string& description, std::function<void(std::int64_t)> set);
-// Adds an option that names a picture to write, which has to end in .svg.
+// Adds an option that names a file to write, which has to end in `suffix`.
+CLI::Option* add_output_file(CLI::App& app, const std::string& name, const std::string& suffix,
+                             const std::string& description, std::optional<std::string>& path);
+// Likewise of a picture, which ends in .svg.
 CLI::Option* add_picture(CLI::App& app, const std::string& name, const std::string& description,
                          std::optional<std::string>& path);
 

@@ -250,8 +250,8 @@ void add_reconstruct(CLI::App& floe) {
   add_model_options(app, options->model);
   add_fit_options(app, options->fit);
   add_output_options(app, options->output);
-  app.add_option("--skymap", options->sky_map, "Write maps of -ln L over directions to this file")
-      ->type_name("FILE.h5");
+  add_output_file(app, "--skymap", ".h5", "Write maps of -ln L over directions to this file",
+                  options->sky_map);
   add_picture(app, "--skymap-picture", "Draw the map, of one event", options->sky_map_picture);
   app.add_flag("--profile", options->profile, "Intervals of the profile likelihood: errors on both sides");
   app.footer(

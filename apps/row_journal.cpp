@@ -53,13 +53,25 @@ bool may_be_heading(std::string_view text) {
   return text.starts_with(begin) || begin.starts_with(text);
 }
 
-// What two headings differ in, in words.
-std::string difference(const Json& found, const Json& expected) {
-  for (const auto& [key, value] : expected.items())
-    if (!found.contains(key) || found[key] != value)
-      return fmt::format("{} {}, not {}", key, found.contains(key) ? json_line(found[key]) : "unknown",
-                         json_line(value));
-  return "settings that this run does not have";
+std::string shortened(const std::string& text) {
+  constexpr std::size_t most = 60;
+  return text.size() <= most ? text : text.substr(0, most) + "...";
+}
+
+// What two headings differ in first, in words; `name`: of the part that is looked at.
+std::string difference(const Json& found, const Json& expected, const std::string& name = "") {
+  const auto within = [&](const std::string& part) { return name.empty() ? part : name + "." + part; };
+  if (found.is_object() && expected.is_object()) {
+    for (const auto& [key, value] : expected.items()) {
+      if (!found.contains(key)) return fmt::format("no {}", within(key));
+      if (found[key] != value) return difference(found[key], value, within(key));
+    }
+    return "settings that this run does not have";
+  }
+  if (found.is_array() && expected.is_array() && found.size() == expected.size())
+    for (std::size_t i = 0; i < found.size(); ++i)
+      if (found[i] != expected[i]) return difference(found[i], expected[i], within(fmt::format("{}", i + 1)));
+  return fmt::format("{} {}, not {}", name, shortened(json_line(found)), shortened(json_line(expected)));
 }
 
 }  // namespace

@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 
 #include "apps/commands.h"
 #include "apps/common_options.h"
+#include "apps/option_values.h"
 #include "apps/view/page.h"
 #include "apps/view/page_data.h"
 #include "data/base/error.h"
@@ -18,8 +20,9 @@ namespace {
 struct ViewOptions {
   ModelRequest model;
   OutputOptions output;
-  std::string events, event, fit, page;  // page: "" for a name after the event file
-  bool ice = false;                      // whether --ice was given: then it is shown
+  std::string events, event, fit;
+  std::optional<std::string> page;  // none: named after the event file
+  bool ice = false;                 // whether --ice was given: then it is shown
 };
 
 // The index of the event of this name, or 0 when none was named.
@@ -50,7 +53,7 @@ void warn_of_another_detector(const std::optional<Provenance>& provenance, const
 }
 
 std::string page_name(const ViewOptions& options) {
-  if (!options.page.empty()) return options.page;
+  if (options.page) return *options.page;
   std::filesystem::path name = std::filesystem::path(options.events).filename();
   if (name.extension() == ".gz") name = name.stem();
   return name.replace_extension(".html").string();
@@ -113,8 +116,8 @@ void add_view(CLI::App& floe) {
   app.add_option("--event", options->event, "Of this name; default: the file's first")->type_name("ID");
   app.add_option("--fit", options->fit, "Its fit, as floe reconstruct --json or floe compare --json wrote it")
       ->type_name("FIT.json");
-  app.add_option("-o,--output", options->page, "Page to write; default: named after the event file")
-      ->type_name("PAGE.html");
+  add_output_file(app, "-o,--output", ".html", "Page to write; default: named after the event file",
+                  options->page);
   add_model_options(app, options->model);
   app.get_option("--ice")->description(
       "Ice-model directory, or south-pole: its dust and flow are shown, and its detector is taken");

@@ -49,6 +49,25 @@ TEST(RowJournal, DoesNotMixRunsAndLetsOnlyOneWrite) {
   EXPECT_TRUE(RowJournal(path, other, RowJournal::Mismatch::start_again).rows().empty());
 }
 
+// One setting deep inside, between long ones.
+TEST(RowJournal, SaysWhichSettingDiffers) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "rows";
+  const std::string rest(5000, 'x');
+  const auto with_seed = [&](int seed) {
+    return Json{{"journal", "test 1"}, {"rest", rest}, {"runs", {{{"seed", 1}}, {{"seed", seed}}}}};
+  };
+  RowJournal(path, with_seed(2), RowJournal::Mismatch::error);
+  try {
+    RowJournal(path, with_seed(3), RowJournal::Mismatch::error);
+    FAIL() << "mixed";
+  } catch (const UsageError& error) {
+    EXPECT_NE(std::string(error.what()).find("rows of a run with runs.2.seed 2, not 3"), std::string::npos)
+        << error.what();
+    EXPECT_LT(std::string(error.what()).size(), 300u);
+  }
+}
+
 TEST(RowJournal, RefusesWhatIsNoJournal) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "text";
