@@ -110,7 +110,7 @@ TEST(MeasuredCurve, IsReadStrictly) {
   EXPECT_EQ(read_pulse_shape(file).high(), 180);
   expect_refused("0 1\n90 0.5 3\n", ":2: ");
   expect_refused("0 1\n90 x\n", "found 'x'");
-  expect_refused("0 1\n20 1\n10 1\n", ":3: found 0.17");
+  expect_refused("0 1\n20 1\n10 1\n", ":3: found 10 after 20");
   expect_refused("0 1\n20 -1\n", ":2: found intensity -1");
   expect_refused("0 1\n181 1\n", "181");
   expect_refused("0 1\n", "at least two points");
