@@ -68,20 +68,22 @@ std::filesystem::path place_of(const std::string& file) {
   return failed ? std::filesystem::path(file) : place;
 }
 
+// `output` is given at most once.
+bool name_one_file(const CLI::Option& output, const CLI::Option& other) {
+  return !output.empty() && std::ranges::any_of(other.results(), [&](const std::string& value) {
+    return !value.empty() && place_of(value) == place_of(output.results().front());
+  });
+}
+
 }  // namespace
 
 void expect_outputs_apart(const CLI::App& command) {
   const std::vector<const CLI::Option*> options = command.get_options();
-  for (const CLI::Option* output : options) {
-    if (!is_output(*output)) continue;
-    for (const std::string& file : output->results())
-      for (const CLI::Option* other : options)
-        if (other != output && std::ranges::any_of(other->results(), [&](const std::string& value) {
-              return !value.empty() && place_of(value) == place_of(file);
-            }))
-          throw UsageError(fmt::format("{} and {} are the same file, {}. Give the output a name of its own",
-                                       output->get_name(), other->get_name(), file));
-  }
+  for (const CLI::Option* output : options)
+    for (const CLI::Option* other : options)
+      if (other != output && is_output(*output) && name_one_file(*output, *other))
+        throw UsageError(fmt::format("{} and {} are the same file, {}. Give the output a name of its own",
+                                     output->get_name(), other->get_name(), output->results().front()));
 }
 
 std::string quoted_command_line(int argc, char** argv) {

@@ -158,8 +158,7 @@ std::string summary(const Diagnosis& diagnosis, const DiagnoseCommand& command) 
   for (const NamedEffect& effect : diagnosis.effects)
     for (const Separation& separation : effect.separations) text += separation.sentence + "\n";
   for (const std::string& remark : diagnosis.remarks) text += remark + "\n";
-  return text + fmt::format("Gap in {}: {:.1f} before, {:.1f} after ({:.0f} s).\n",
-                            diagnosis.folds > 1 ? "held-out runs" : "the fitted runs (none was held out)",
+  return text + fmt::format("Gap in {}: {:.1f} before, {:.1f} after ({:.0f} s).\n", judged_runs(diagnosis),
                             diagnosis.gap_before, diagnosis.gap_after, diagnosis.seconds);
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "data/base/atomic_file.h"
 #include "data/base/error.h"
 
 namespace floe {
@@ -12,10 +13,6 @@ namespace {
 
 void create_folder(const fs::path& folder) {
   std::error_code failed;
-  const fs::path above = folder.has_parent_path() ? folder.parent_path() : fs::path(".");
-  if (!fs::is_directory(above, failed))
-    throw OutputError(fmt::format("{}: the folder {} does not exist. Create the folder first",
-                                  fs::path(folder).replace_extension().string(), above.string()));
   fs::create_directory(folder, failed);
   if (failed)
     throw OutputError(fmt::format("{}: cannot be made: {}. Choose a folder that can be written",
@@ -26,6 +23,7 @@ void create_folder(const fs::path& folder) {
 
 EventParts::EventParts(fs::path file, const Json& heading, std::size_t events)
     : file_(std::move(file)), folder_(file_.string() + ".parts"), rows_(events) {
+  { const AtomicFile writable(file_); }  // says what is wrong where it is not
   create_folder(folder_);
   journal_.emplace(folder_ / "journal", heading, RowJournal::Mismatch::start_again);
   for (const Json& row : journal_->rows()) {

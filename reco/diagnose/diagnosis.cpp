@@ -119,6 +119,7 @@ class Diagnoser {
     now.where = where_is_the_gap(survey, axes, draws());
     find_separations(survey, axes, tester, now.scores);
     result_.steps.push_back(std::move(now));
+    result_.looked_at_improved = true;
     const DiagnosisStep& last = result_.steps.back();
     return last.scores.p_value < options_.alpha / 2 || last.p_of_fit < options_.alpha / 2;
   }
@@ -299,7 +300,8 @@ class Diagnoser {
     accepted_.add(std::move(named), fit);
     now.added = accepted_.effects().size() - 1;
     retest();
-    if (accepted_.effects().back().suspect.effect == "birefringence") refine_by_layers();
+    if (!accepted_.empty() && accepted_.effects().back().suspect.effect == "birefringence")
+      refine_by_layers();
   }
 
   // Grains differ from layer to layer, and with them the strength of birefringence (arXiv:2107.08692).
@@ -345,11 +347,7 @@ class Diagnoser {
         accepted_.take(fit(data_, accepted_.parameters(), rounds));
         return;
       } catch (const InputError&) {
-        const std::size_t last = accepted_.effects().size() - 1;
-        result_.remarks.push_back(
-            fmt::format("{} was given up: no physical ice without what was given up before",
-                        text_of(accepted_.effects()[last].suspect)));
-        drop(last);
+        give_up(accepted_.effects().size() - 1, "no physical ice without what was given up before");
       }
   }
   void drop(std::size_t effect) {

@@ -55,7 +55,7 @@ struct Diagnosis {
   // runs.
   int folds = 1;
   // Whether the last step looked at the improved model: not when names were given up after it.
-  bool looked_at_improved = true;
+  bool looked_at_improved = false;
   // Of so bad a fit of the improved model to all runs, measured with the light of gaps; of the base model
   // when everything that was added has been given up again. None: nothing was added.
   std::optional<double> p_of_rest;

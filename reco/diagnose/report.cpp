@@ -183,11 +183,6 @@ std::string step_text(const Diagnosis& diagnosis, std::size_t i) {
   return text;
 }
 
-// Which runs gaps are of, in words.
-const char* judged_runs(const Diagnosis& diagnosis) {
-  return diagnosis.folds > 1 ? "runs that were held out" : "the runs that were fitted";
-}
-
 std::string closing_text(const Diagnosis& diagnosis) {
   if (diagnosis.has_clear_gap())
     return fmt::format("{:.0f}% of the gap in {} closes", 100 * diagnosis.closed(), judged_runs(diagnosis));
@@ -224,6 +219,10 @@ constexpr const char* style =
     ".key{font-size:.9em}code{background:#f4f4f4;padding:.1em .3em;overflow-wrap:anywhere}";
 
 }  // namespace
+
+const char* judged_runs(const Diagnosis& diagnosis) {
+  return diagnosis.folds > 1 ? "held-out runs" : "the fitted runs (none was held out)";
+}
 
 std::string verdict_sentence(const Diagnosis& diagnosis, double alpha) {
   if (diagnosis.verdict.empty())

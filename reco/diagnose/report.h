@@ -12,6 +12,8 @@ struct ReportFacts {
   std::uint64_t seed = 1;
 };
 
+// Which runs the gaps are of, in words.
+const char* judged_runs(const Diagnosis& diagnosis);
 // One sentence: what is missing, or that nothing is.
 std::string verdict_sentence(const Diagnosis& diagnosis, double alpha);
 std::string report_html(const Diagnosis& diagnosis, const DiagnosisOptions& options,
