@@ -160,8 +160,8 @@ TEST_F(Study, DoesNotMixRowsOfOtherSettings) {
   expect_error(study(group + "--effort 0.1 --json x.json"), 2, "with effort 0.02, not 0.1");
   expect_error(study(group + "--without birefringence -o x.svg"), 2, "with model ");
   expect_error(study(group + "--fit-without birefringence -o x.svg"), 2, "with fit_model null, not ");
-  expect_error(study("--rows rows --group 1,1,10 -o x.svg"), 2, "with oversize ");
-  expect_error(study(group + "--pulses -o x.svg"), 2, "with response unknown, not ");
+  expect_error(study("--rows rows --group 1,1,10 -o x.svg"), 2, "with oversize.1 20.0, not 10.0");
+  expect_error(study(group + "--pulses -o x.svg"), 2, "with no response");
   EXPECT_EQ(text_of("rows"), rows);
   EXPECT_EQ(files_in(folder_.path()), before);
 }
