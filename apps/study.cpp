@@ -42,7 +42,7 @@ StudyGroup group_of(const std::string& text) {
   if (parts.size() != 3)
     throw UsageError(fmt::format("--group: found \"{}\"; expected ENERGY,EVENTS,OVERSIZE", text));
   return {parse_option_number("--group", parts[0], {1, 1e9}),
-          static_cast<int>(parse_option_integer("--group", parts[1], 0, 100000)),
+          static_cast<int>(parse_option_integer("--group", parts[1], 1, 100000)),
           parse_option_number("--group", parts[2], {1, 100})};
 }
 

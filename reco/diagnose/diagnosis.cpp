@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 
 #include "data/base/error.h"
+#include "reco/diagnose/effect_fits.h"
 #include "reco/diagnose/goodness.h"
-#include "reco/ice_fit/held_out_runs.h"
+#include "reco/diagnose/stages.h"
 #include "reco/ice_fit/model_judge.h"
 #include "reco/validation/two_sample_tests.h"
 
@@ -23,16 +25,7 @@ constexpr std::uint64_t look_stream = std::uint64_t{1} << 44, judge_stream = std
 constexpr double light_of_gap = 5;
 constexpr double leading_share = 0.35;  // of the best gain: suspects that are fitted, too
 constexpr std::size_t most_trials = 3;
-constexpr double light_of_pairs = 0.5;  // of fits, in units of a run's own simulation
-constexpr double light_of_first_round = 0.4;
-// Of fits to a part of the runs, in units of that: what they tell of the others is extrapolated, and so is
-// the noise of their simulations.
-constexpr double light_of_folds = 2.5;
-// Rivals are alike. Of each run, at least so many hits, or as many as these times the brightest run's: with
-// dim data their own noise decides.
-constexpr double hits_of_contest = 6e4, light_of_contest = 3;
 constexpr double confirmed_share = 0.4;  // of the gain that a score promised, by a fit
-constexpr int rounds = 4, rounds_of_layers = 7, rounds_of_folds = 3, rounds_of_contest = 5;
 
 void check_options(const DiagnosisOptions& options, std::size_t runs) {
   check(static_cast<const RunSettings&>(options));
@@ -46,20 +39,18 @@ void check_options(const DiagnosisOptions& options, std::size_t runs) {
           fmt::format("found {} folds; expected 1 to {}, the number of runs", options.folds, runs));
 }
 
-// Of a -ln L at least as large, by chance: twice it is nearly a chi-square, and becomes one of the same mean
-// and deviation when it is scaled.
-double probability_of(double neg_llh, const ExpectedFit& right) {
-  const double variance = right.scatter * right.scatter;
-  return chi_square_probability(2 * neg_llh * right.mean / variance, 2 * right.mean * right.mean / variance);
-}
-
 class Diagnoser {
  public:
   Diagnoser(const Model& base, FlasherData data, const DiagnosisOptions& options, const Progress& progress)
-      : base_(base), data_(std::move(data)), options_(options), progress_(progress), accepted_(base) {}
+      : base_(base),
+        data_(std::move(data)),
+        options_(options),
+        stages_(progress),
+        fits_(base, data_, options, stages_),
+        accepted_(base) {}
 
   Diagnosis run() {
-    stage(0, 0.03, "first look");
+    stages_.begin(0, 0.03, "first look");
     look_ = look_first(
         base_, [this](std::size_t r, double photons) { return request(r, photons); }, data_);
     leave_out_dark_runs(data_, look_);
@@ -87,27 +78,18 @@ class Diagnoser {
     return request_of(data_.runs[r], options_, photons, look_stream + r);
   }
 
-  void stage(double from, double to, const std::string& text) {
-    from_ = from, to_ = to, text_ = text;
-    if (progress_) progress_(from, text);
-  }
-  Progress part() const {
-    return [this](double fraction, const std::string& what) {
-      if (progress_) progress_(from_ + (to_ - from_) * fraction, text_ + ": " + what);
-    };
-  }
   // Nobody knows how many steps there will be: each takes three fifths of what is left.
   static double begin(int step) { return 0.03 + 0.87 * (1 - std::pow(0.4, step)); }
 
   // Whether there is a significant gap.
   bool look_at(const Model& model, int step) {
     const double from = begin(step), length = begin(step + 1) - from;
-    stage(from, from + length * 0.4, step == 0 ? "looking for a gap" : "looking again");
+    stages_.begin(from, from + length * 0.4, step == 0 ? "looking for a gap" : "looking again");
     const SuspectPlan plan =
         plan_suspects(model, flasher_depths(data_, *model.detector), data_.runs.size(), options_.oversize);
     SurveyPlan survey_plan{.parameters = plan.parameters};
     survey_plan.stream = static_cast<std::uint64_t>(step);
-    const Survey survey = survey_data(model, data_, look_, survey_plan, options_, part());
+    const Survey survey = survey_data(model, data_, look_, survey_plan, options_, stages_.part());
     if (survey.bins == 0)
       throw NoResult("not enough light: no receiver of any flasher run sees enough to be compared");
     DiagnosisStep now;
@@ -153,39 +135,6 @@ class Diagnoser {
     now.p_of_fit = probability_of(now.neg_llh, right);
   }
 
-  IceFitOptions fit_options(int most_rounds) const {
-    IceFitOptions options;
-    static_cast<RunSettings&>(options) = options_;
-    options.most_rounds = most_rounds;
-    options.judged = false;  // the same for all rivals, below
-    return options;
-  }
-  // `light`: in units of other fits'; the first round and slopes from pairs have enough.
-  IceFit fit(const FlasherData& data, const std::vector<IceParameter>& parameters, int most_rounds,
-             double light = 1) {
-    IceFitOptions options = fit_options(most_rounds);
-    options.light.light *= light, options.light.least_hits *= light;
-    options.pair_light = light_of_pairs / light;
-    options.least_pair_hits = enough_pair_hits;
-    options.first_light = light_of_first_round / light;
-    return fit_ice(base_, data, parameters, options, part());
-  }
-  // Where rivals are alike, noise of slopes and simulations decides soonest.
-  IceFit joint_fit(const std::vector<IceParameter>& parameters,
-                   const std::function<bool(const IceFit&)>& settled) {
-    IceFitOptions options = fit_options(rounds_of_contest);
-    options.settled = settled;
-    options.light.least_hits =
-        std::max(options.light.least_hits, std::min(hits_of_contest, light_of_contest * brightest_run()));
-    return fit_ice(base_, data_, parameters, options, part());
-  }
-
-  double brightest_run() const {
-    double most = 0;
-    for (const RunData& run : data_.runs) most = std::max(most, run.charge);
-    return most;
-  }
-
   double neg_llh_of_all(const Model& model) const {
     double sum = 0;
     for (std::size_t r = 0; r < data_.runs.size(); ++r) sum += judge_->measure(model, r).neg_llh;
@@ -203,11 +152,11 @@ class Diagnoser {
       return false;
     }
     const double from = begin(step), to = begin(step + 1);
-    stage(from + (to - from) * 0.8, to, "which of them is missing");
+    stages_.begin(from + (to - from) * 0.8, to, "which of them is missing");
     hold_contest(
         base_, judge_->noise_of_differences(),
         [this](const auto& parameters, const auto& settled) {
-          return joint_fit(accepted_.parameters(parameters), settled);
+          return fits_.fit_rivals(accepted_.parameters(parameters), settled);
         },
         candidates);
     for (const Candidate& candidate : candidates) now.trials.push_back(candidate.trial);
@@ -231,7 +180,8 @@ class Diagnoser {
           is_more_of_accepted(score, now.scores))
         continue;
       const double done = 0.4 + 0.4 * static_cast<double>(effects++) / most_trials;
-      stage(from + length * done, from + length * (done + 0.13), "fitting " + text_of(suspect.suspect));
+      stages_.begin(from + length * done, from + length * (done + 0.13),
+                    "fitting " + text_of(suspect.suspect));
       add_fitted(suspect, candidates);
       // The leader's place, too, is only the best of those that were tried.
       if (&score == &now.scores.effects.front() && score.elsewhere &&
@@ -260,7 +210,7 @@ class Diagnoser {
     Trial& trial = candidate.trial;
     trial.suspect = score.suspect;
     trial.parameters = fit_parameters(score.suspect, score.amplitudes, base_);
-    candidate.fit = fit(data_, accepted_.parameters(trial.parameters), rounds);
+    candidate.fit = fits_.fit(accepted_.parameters(trial.parameters));
     trial.neg_llh = neg_llh_of_all(with_parameters(base_, candidate.fit.parameters, candidate.fit.numbers));
     trial.chi_square = chi_square_of(trial.parameters, candidate.fit, accepted_.parameter_count(), base_);
     return candidate;
@@ -308,10 +258,10 @@ class Diagnoser {
   void refine_by_layers() {
     const DepthRange range = layers_of(flasher_depths(data_, *base_.detector), data_.runs.size());
     if (range.groups < 2) return;
-    stage(from_, to_, "fitting birefringence layer by layer");
+    stages_.begin(stages_.from(), stages_.to(), "fitting birefringence layer by layer");
     try {
       const IceFit layered =
-          fit(data_, accepted_.parameters_by_layers(LayerFamily::birefringence, range), rounds_of_layers);
+          fits_.fit_layers(accepted_.parameters_by_layers(LayerFamily::birefringence, range));
       const double least_spread = 2 * (range.groups - 1);
       if (accepted_.spread_of_layers(layered) >= least_spread) accepted_.take_layers(layered);
     } catch (const Error&) {
@@ -344,7 +294,7 @@ class Diagnoser {
   // What a dropped effect had taken goes to the others.
   void refit() {
     while (!accepted_.empty()) try {
-        accepted_.take(fit(data_, accepted_.parameters(), rounds));
+        accepted_.take(fits_.fit(accepted_.parameters()));
         return;
       } catch (const InputError&) {
         give_up(accepted_.effects().size() - 1, "no physical ice without what was given up before");
@@ -401,86 +351,44 @@ class Diagnoser {
     }
   }
 
-  // Gives up what makes light worse that the fit has not seen, by more than the noise of the simulations: the
-  // last effect first, which may have come by what an earlier one has left. `found`: anything was ever named.
+  // Gives up effects that make light worse which the fit has not seen, by more than the noise of the
+  // simulations: the last one first, which may have come by what an earlier one has left. `found`: anything
+  // was ever named.
   void measure_gaps(bool found) {
     RunSettings settings = options_;
     if (found) settings.light.light *= light_of_gap, settings.light.least_hits *= light_of_gap;
-    const ModelJudge judge(base_, data_, look_, settings, gap_stream);
-    const std::vector<ModelJudge::Fit> of_base = fits_of(base_, data_, judge);
-    result_.gaps = gaps_of(data_, of_base);
-    for (const RunGap& run : result_.gaps) result_.gap_before += run.before;
-    result_.gap_after = result_.gap_before;
-    result_.gap_scatter = 2 * right_fit(of_base).scatter;
     result_.folds = std::min(options_.folds, static_cast<int>(data_.runs.size()));
+    HeldOutGaps gaps(base_, data_, look_, settings, gap_stream, result_.folds, fits_);
+    for (std::size_t r = 0; r < data_.runs.size(); ++r)
+      result_.gaps.push_back({data_.runs[r].name, gaps.of_base()[r], 0});
+    result_.gap_before = total(gaps.of_base());
+    result_.gap_scatter = gaps.scatter_of_base();
+    take_gaps(gaps.of_base());
     if (!found) return;
-    const double noise = 2 * judge.noise_of_differences();
     while (!accepted_.empty()) {
-      measure_held_out(judge);
-      if (result_.gap_after <= result_.gap_before + noise) break;
-      give_up(
-          accepted_.effects().size() - 1,
-          fmt::format("runs that were held out fit worse with what was added (a gap of {:.1f}) than without "
-                      "({:.1f})",
-                      result_.gap_after, result_.gap_before));
-      for (RunGap& run : result_.gaps) run.after = run.before;
-      result_.gap_after = result_.gap_before;
+      take_gaps(gaps.of(accepted_, stages_, 0.9, 0.95));
+      const double without = gap_without_last(gaps);
+      if (result_.gap_after <= without + gaps.noise_of_differences()) break;
+      give_up(accepted_.effects().size() - 1,
+              fmt::format("runs that were held out fit worse with it (a gap of {:.1f}) than without ({:.1f})",
+                          result_.gap_after, without));
+      take_gaps(gaps.of_base());
       refit();
     }
-    result_.p_of_rest = p_of_fit(accepted_.empty() ? of_base : fits_of(accepted_.model(), data_, judge));
+    std::ranges::copy(gaps.remarks(), std::back_inserter(result_.remarks));
+    result_.p_of_rest = accepted_.empty() ? gaps.p_of_base() : gaps.p_of(accepted_.model());
+  }
+  void take_gaps(const Gaps& gaps) {
+    for (std::size_t r = 0; r < gaps.size(); ++r) result_.gaps[r].after = gaps[r];
+    result_.gap_after = total(gaps);
   }
 
-  // A look has hardly more light than the data, and its noise hides what this shows.
-  static double p_of_fit(const std::vector<ModelJudge::Fit>& fits) {
-    double neg_llh = 0;
-    for (const ModelJudge::Fit& fit : fits) neg_llh += fit.measured.neg_llh;
-    return probability_of(neg_llh, right_fit(fits));
-  }
-  // Of all runs together, were the model true.
-  static ExpectedFit right_fit(const std::vector<ModelJudge::Fit>& fits) {
-    double variance = 0;
-    ExpectedFit right;
-    for (const ModelJudge::Fit& fit : fits) {
-      right.mean += fit.expected;
-      variance += fit.scatter * fit.scatter;
-    }
-    right.scatter = std::sqrt(variance);
-    return right;
-  }
-
-  void measure_held_out(const ModelJudge& judge) {
-    const int folds = result_.folds;
-    const HeldOutRuns held_out(data_, *base_.detector, folds);
-    const auto model_without = [&](int fold) {
-      stage(0.9 + 0.1 * fold / folds, 0.9 + 0.1 * (fold + 1) / folds, "holding runs out");
-      return folds == 1 ? accepted_.model() : fitted_to(held_out.rest(data_, fold), fold);
-    };
-    hold_out(held_out, judge, model_without, result_.gaps);
-    result_.gap_after = 0;
-    for (const RunGap& run : result_.gaps) result_.gap_after += run.after;
-  }
-
-  // The base where the other runs lead to no ice that can be: they tell nothing of this then.
-  Model fitted_to(const FlasherData& rest, int fold) {
-    std::vector<IceParameter> parameters = accepted_.parameters();
-    for (IceParameter& p : parameters) expect_no_change(p);
-    try {
-      const IceFit blind = fit(rest, parameters, rounds_of_folds, light_of_folds);
-      return with_parameters(base_, blind.parameters, blind.numbers);
-    } catch (const InputError&) {
-      result_.remarks.push_back(
-          fmt::format("Without the runs of group {} of {} the others fit to no physical ice: these runs are "
-                      "judged by the base",
-                      fold + 1, result_.folds));
-      return base_;
-    }
-  }
-  // What only the runs that are held out tell of is not known: a prior, as wide as a large change, leaves it
-  // where it changes nothing, and the place of a band where it is.
-  void expect_no_change(IceParameter& p) const {
-    if (!p.family.empty() || p.prior > 0) return;
-    p.prior = p.scale;
-    p.prior_centre = is_place_of_band(p) ? p.start : null_number(p, base_);
+  // Of what was found before the last effect, or of the base where that is better.
+  double gap_without_last(HeldOutGaps& gaps) {
+    if (accepted_.effects().size() == 1 || result_.folds == 1) return result_.gap_before;
+    AcceptedEffects fewer = accepted_;
+    fewer.drop(fewer.effects().size() - 1);
+    return std::min(result_.gap_before, total(gaps.of(fewer, stages_, 0.95, 1)));
   }
 
   static bool contains(const std::vector<std::string>& names, const std::string& name) {
@@ -490,13 +398,12 @@ class Diagnoser {
   const Model& base_;
   FlasherData data_;
   const DiagnosisOptions& options_;
-  const Progress& progress_;
+  Stages stages_;
   FirstLook look_;
   std::optional<ModelJudge> judge_;
+  EffectFits fits_;
   AcceptedEffects accepted_;
   std::vector<Separation> separations_;  // of the last look's leading effects, each from each other
-  double from_ = 0, to_ = 1;
-  std::string text_;
   Diagnosis result_;
 };
 

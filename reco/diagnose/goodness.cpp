@@ -4,6 +4,8 @@
 #include <numeric>
 #include <vector>
 
+#include "reco/validation/two_sample_tests.h"
+
 namespace floe {
 
 namespace {
@@ -29,6 +31,11 @@ ExpectedFit expected_fit(const Survey& survey, const Draws& draws) {
   for (const double value : drawn) squares += std::pow(value - fit.mean, 2);
   fit.scatter = std::sqrt(squares / (draws.count - 1));
   return fit;
+}
+
+double probability_of(double neg_llh, const ExpectedFit& right) {
+  const double variance = right.scatter * right.scatter;
+  return chi_square_probability(2 * neg_llh * right.mean / variance, 2 * right.mean * right.mean / variance);
 }
 
 }  // namespace floe

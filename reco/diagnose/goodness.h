@@ -15,4 +15,8 @@ struct ExpectedFit {
 };
 ExpectedFit expected_fit(const Survey& survey, const Draws& draws);
 
+// Of a -ln L at least as large, by chance: twice it is nearly a chi-square, and becomes one of the same mean
+// and deviation when it is scaled.
+double probability_of(double neg_llh, const ExpectedFit& right);
+
 }  // namespace floe

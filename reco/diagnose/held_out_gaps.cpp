@@ -1,5 +1,14 @@
 #include "reco/diagnose/held_out_gaps.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "data/base/error.h"
+#include "reco/diagnose/suspects.h"
+
 namespace floe {
 
 namespace {
@@ -8,28 +17,91 @@ double gap(const ModelJudge::Fit& fit) {
   return 2 * (fit.measured.neg_llh - fit.expected);
 }
 
-}  // namespace
-
-std::vector<ModelJudge::Fit> fits_of(const Model& model, const FlasherData& data, const ModelJudge& judge) {
-  std::vector<ModelJudge::Fit> fits;
-  for (std::size_t r = 0; r < data.runs.size(); ++r) fits.push_back(judge.judge(model, r));
-  return fits;
+// Of all runs together.
+double neg_llh_of(const std::vector<ModelJudge::Fit>& fits) {
+  double sum = 0;
+  for (const ModelJudge::Fit& fit : fits) sum += fit.measured.neg_llh;
+  return sum;
+}
+ExpectedFit right_fit(const std::vector<ModelJudge::Fit>& fits) {
+  double variance = 0;
+  ExpectedFit right;
+  for (const ModelJudge::Fit& fit : fits) {
+    right.mean += fit.expected;
+    variance += fit.scatter * fit.scatter;
+  }
+  right.scatter = std::sqrt(variance);
+  return right;
 }
 
-std::vector<RunGap> gaps_of(const FlasherData& data, const std::vector<ModelJudge::Fit>& fits) {
-  std::vector<RunGap> gaps;
-  for (std::size_t r = 0; r < fits.size(); ++r)
-    gaps.push_back({data.runs[r].name, gap(fits[r]), gap(fits[r])});
+// What only the runs that are held out tell of is not known: a prior, as wide as a large change, leaves it
+// where it changes nothing, and the place of a band where it is.
+void expect_no_change(IceParameter& p, const Model& base) {
+  if (!p.family.empty() || p.prior > 0) return;
+  p.prior = p.scale;
+  p.prior_centre = is_place_of_band(p) ? p.start : null_number(p, base);
+}
+
+}  // namespace
+
+double total(const Gaps& gaps) {
+  return std::accumulate(gaps.begin(), gaps.end(), 0.0);
+}
+
+HeldOutGaps::HeldOutGaps(const Model& base, const FlasherData& data, const FirstLook& look,
+                         const RunSettings& settings, std::uint64_t stream, int folds, const EffectFits& fits)
+    : base_(base),
+      data_(data),
+      fits_(fits),
+      judge_(base, data, look, settings, stream),
+      held_out_(data, *base.detector, folds),
+      fits_of_base_(fits_of(base)),
+      right_of_base_(right_fit(fits_of_base_)) {
+  for (const ModelJudge::Fit& fit : fits_of_base_) of_base_.push_back(gap(fit));
+}
+
+Gaps HeldOutGaps::of(const AcceptedEffects& effects, Stages& stages, double from, double to) {
+  const int folds = held_out_.folds();
+  Gaps gaps(data_.runs.size());
+  for (int fold = 0; fold < folds; ++fold) {
+    const double length = (to - from) / folds;
+    stages.begin(from + length * fold, from + length * (fold + 1), "holding runs out");
+    const Model model = folds == 1 ? effects.model() : fitted_without(fold, effects);
+    for (std::size_t r = 0; r < gaps.size(); ++r)
+      if (held_out_.holds(r, fold)) gaps[r] = gap(judge_.judge(model, r));
+  }
   return gaps;
 }
 
-void hold_out(const HeldOutRuns& held_out, const ModelJudge& judge,
-              const std::function<Model(int fold)>& model_without, std::vector<RunGap>& gaps) {
-  for (int fold = 0; fold < held_out.folds(); ++fold) {
-    const Model model = model_without(fold);
-    for (std::size_t r = 0; r < gaps.size(); ++r)
-      if (held_out.holds(r, fold)) gaps[r].after = gap(judge.judge(model, r));
+// The base where the other runs lead to no ice that can be: they tell nothing of this then.
+Model HeldOutGaps::fitted_without(int fold, const AcceptedEffects& effects) {
+  std::vector<IceParameter> parameters = effects.parameters();
+  for (IceParameter& p : parameters) expect_no_change(p, base_);
+  try {
+    const IceFit blind = fits_.fit_to(held_out_.rest(data_, fold), parameters);
+    return with_parameters(base_, blind.parameters, blind.numbers);
+  } catch (const InputError&) {
+    const std::string remark = fmt::format(
+        "Without the runs of group {} of {} the others fit to no physical ice: the base judges these runs",
+        fold + 1, held_out_.folds());
+    if (std::ranges::find(remarks_, remark) == remarks_.end()) remarks_.push_back(remark);
+    return base_;
   }
+}
+
+double HeldOutGaps::p_of_base() const {
+  return probability_of(neg_llh_of(fits_of_base_), right_of_base_);
+}
+
+double HeldOutGaps::p_of(const Model& model) const {
+  const std::vector<ModelJudge::Fit> fits = fits_of(model);
+  return probability_of(neg_llh_of(fits), right_fit(fits));
+}
+
+std::vector<ModelJudge::Fit> HeldOutGaps::fits_of(const Model& model) const {
+  std::vector<ModelJudge::Fit> fits;
+  for (std::size_t r = 0; r < data_.runs.size(); ++r) fits.push_back(judge_.judge(model, r));
+  return fits;
 }
 
 }  // namespace floe

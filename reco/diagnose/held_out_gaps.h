@@ -2,11 +2,14 @@
 // others.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "propagation/model.h"
+#include "reco/diagnose/accepted_effects.h"
+#include "reco/diagnose/effect_fits.h"
+#include "reco/diagnose/goodness.h"
+#include "reco/diagnose/stages.h"
 #include "reco/ice_fit/held_out_runs.h"
 #include "reco/ice_fit/model_judge.h"
 #include "reco/ice_fit/run_data.h"
@@ -18,14 +21,46 @@ struct RunGap {
   double before = 0, after = 0;  // deviance above what it would be on average if the model were true
 };
 
-// By run.
-std::vector<ModelJudge::Fit> fits_of(const Model& model, const FlasherData& data, const ModelJudge& judge);
+// One of each run.
+using Gaps = std::vector<double>;
+double total(const Gaps& gaps);
 
-// `fits`: of a model that nothing was fitted to; `after` is as `before`.
-std::vector<RunGap> gaps_of(const FlasherData& data, const std::vector<ModelJudge::Fit>& fits);
+class HeldOutGaps {
+ public:
+  // Keeps references. `settings`: with the light of the measurement; `stream` as ModelJudge has it; `folds`:
+  // runs are held out in so many groups, 1: none are.
+  HeldOutGaps(const Model& base, const FlasherData& data, const FirstLook& look, const RunSettings& settings,
+              std::uint64_t stream, int folds, const EffectFits& fits);
 
-// Sets `after`. `model_without(fold)`: fitted to the runs of all other folds.
-void hold_out(const HeldOutRuns& held_out, const ModelJudge& judge,
-              const std::function<Model(int fold)>& model_without, std::vector<RunGap>& gaps);
+  const Gaps& of_base() const { return of_base_; }
+  // Of the sum, had the base been true.
+  double scatter_of_base() const { return 2 * right_of_base_.scatter; }
+  // Between sums of models that fit equally well.
+  double noise_of_differences() const { return 2 * judge_.noise_of_differences(); }
+  // Each run by a model whose effects were fitted to the runs of all groups but its own. `stages`: from here
+  // to `to`.
+  Gaps of(const AcceptedEffects& effects, Stages& stages, double from, double to);
+
+  // Probability of so bad a fit of all runs, were the model true.
+  double p_of_base() const;
+  double p_of(const Model& model) const;
+
+  // Sentences on groups that the others could not be fitted without.
+  const std::vector<std::string>& remarks() const { return remarks_; }
+
+ private:
+  std::vector<ModelJudge::Fit> fits_of(const Model& model) const;
+  Model fitted_without(int fold, const AcceptedEffects& effects);
+
+  const Model& base_;
+  const FlasherData& data_;
+  const EffectFits& fits_;
+  ModelJudge judge_;
+  HeldOutRuns held_out_;
+  std::vector<ModelJudge::Fit> fits_of_base_;
+  ExpectedFit right_of_base_;
+  Gaps of_base_;
+  std::vector<std::string> remarks_;
+};
 
 }  // namespace floe

@@ -1,0 +1,67 @@
+#include "reco/diagnose/effect_fits.h"
+
+#include <algorithm>
+
+#include "reco/ice_fit/ice_point.h"
+
+namespace floe {
+
+namespace {
+
+constexpr int rounds_of_fits = 4, rounds_of_layers = 7, rounds_of_folds = 3, rounds_of_rivals = 5;
+constexpr double light_of_pairs = 0.5;  // of fits, in units of a run's own simulation
+constexpr double light_of_first_round = 0.4;
+constexpr double light_of_folds = 2.5;  // in units of other fits'
+// Rivals are alike. Of each run, at least so many hits, or as many as these times the brightest run's: with
+// dim data their own noise decides.
+constexpr double hits_of_rivals = 6e4, light_of_rivals = 3;
+
+double brightest_run(const FlasherData& data) {
+  double most = 0;
+  for (const RunData& run : data.runs) most = std::max(most, run.charge);
+  return most;
+}
+
+}  // namespace
+
+IceFit EffectFits::fit(const std::vector<IceParameter>& parameters) const {
+  return fit(data_, parameters, rounds_of_fits, 1);
+}
+
+IceFit EffectFits::fit_layers(const std::vector<IceParameter>& parameters) const {
+  return fit(data_, parameters, rounds_of_layers, 1);
+}
+
+IceFit EffectFits::fit_to(const FlasherData& runs, const std::vector<IceParameter>& parameters) const {
+  return fit(runs, parameters, rounds_of_folds, light_of_folds);
+}
+
+IceFit EffectFits::fit_rivals(const std::vector<IceParameter>& parameters,
+                              const std::function<bool(const IceFit&)>& settled) const {
+  IceFitOptions asked = options(rounds_of_rivals);
+  asked.settled = settled;
+  asked.light.least_hits =
+      std::max(asked.light.least_hits, std::min(hits_of_rivals, light_of_rivals * brightest_run(data_)));
+  return fit_ice(base_, data_, parameters, asked, stages_.part());
+}
+
+IceFitOptions EffectFits::options(int rounds) const {
+  IceFitOptions asked;
+  static_cast<RunSettings&>(asked) = settings_;
+  asked.most_rounds = rounds;
+  asked.judged = false;  // all models are judged by the same light, elsewhere
+  return asked;
+}
+
+// `light`: in units of other fits'; the first round and slopes from pairs have enough.
+IceFit EffectFits::fit(const FlasherData& runs, const std::vector<IceParameter>& parameters, int rounds,
+                       double light) const {
+  IceFitOptions asked = options(rounds);
+  asked.light.light *= light, asked.light.least_hits *= light;
+  asked.pair_light = light_of_pairs / light;
+  asked.least_pair_hits = enough_pair_hits;
+  asked.first_light = light_of_first_round / light;
+  return fit_ice(base_, runs, parameters, asked, stages_.part());
+}
+
+}  // namespace floe
