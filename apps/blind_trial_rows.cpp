@@ -74,6 +74,16 @@ Json to_json(const FullTrial& trial) {
           {"right", trial.right()}};
 }
 
+Json sealed_json(std::span<const HiddenEffect> trials, std::span<const std::vector<HiddenEffect>> full) {
+  Json json = {{"trials", Json::array()}, {"full", Json::array()}};
+  for (const HiddenEffect& hidden : trials) json["trials"].push_back(hidden_json(hidden));
+  for (const std::vector<HiddenEffect>& all : full) {
+    json["full"].push_back(Json::array());
+    for (const HiddenEffect& hidden : all) json["full"].back().push_back(hidden_json(hidden));
+  }
+  return json;
+}
+
 FullTrial full_trial_of(const Json& json) {
   FullTrial trial;
   for (const Json& hidden : json.at("hidden")) trial.hidden.push_back(hidden_of(hidden));

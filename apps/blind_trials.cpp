@@ -30,7 +30,7 @@ struct BlindTrialsCommand {
   std::string runs;
   ModelRequest model;
   BlindTrialOptions options;
-  std::optional<std::string> rows;
+  std::optional<std::string> rows, sealed;
   SimulationSettings run;
   OutputOptions output;
 };
@@ -80,15 +80,24 @@ const char* outcome_of(const FullTrial& trial) {
   return trial.named_as_well() ? "right, but named" : "right";
 }
 
+// What a whole trial is a trial of.
+const char* class_of(const FullTrial& trial) {
+  if (trial.outside) return "Outside of the catalogue";
+  if (trial.hidden.size() > 1) return "Two effects";
+  return trial.hidden.front().effect.empty() ? "Nothing missing" : "One effect";
+}
+
 std::string full_trials(const BlindTrials& trials) {
   if (trials.full.empty()) return "";
   TextTable table({"hidden for a whole diagnosis", "verdict", "gap closed", ""});
-  int right = 0, elsewhere = 0, named = 0, values = 0, within = 0;
+  std::map<std::string, Tally> classes;
+  int elsewhere = 0, named = 0, values = 0, within = 0;
   for (const FullTrial& trial : trials.full) {
     table.add({hidden_names(trial), verdict_of(trial),
                trial.closed ? fmt::format("{:.0f}%", 100 * *trial.closed) : "hardly any gap",
                outcome_of(trial)});
-    right += trial.right();
+    Tally& tally = classes[class_of(trial)];
+    ++tally.trials, tally.right += trial.right();
     elsewhere += trial.right() && trial.elsewhere();
     named += trial.named_as_well();
     for (const FullTrial::Value& value : trial.values) {
@@ -96,10 +105,11 @@ std::string full_trials(const BlindTrials& trials) {
       within += std::abs(value.found - value.hidden) < 2 * value.error;
     }
   }
-  std::string text =
-      table.str() +
-      fmt::format("Right: {} of {}; {} of them at another place, {} unexplained but with a name, too.\n",
-                  right, trials.full.size(), elsewhere, named);
+  std::string text = table.str();
+  for (const auto& [name, tally] : classes)
+    text += fmt::format("{}: {} of {} right.\n", name, tally.right, tally.trials);
+  text +=
+      fmt::format("{} right ones at another place, {} unexplained but with a name, too.\n", elsewhere, named);
   if (values > 0) text += fmt::format("Fitted values within two errors: {} of {}.\n", within, values);
   return text;
 }
@@ -122,6 +132,27 @@ std::string confusion(const BlindTrials& trials) {
     text += fmt::format("Right name or group: {} of {} ({:.0f}%).\n", right, hidden, 100.0 * right / hidden);
   for (const auto& [effect, why] : trials.not_tried) text += fmt::format("{}: {}\n", effect, why);
   return text;
+}
+
+// Share of what was hidden that was named, by expected significance.
+std::string named_by_strength(const BlindTrials& trials) {
+  constexpr double edges[] = {0, 2, 3, 4, 5, 6, 8, 10, 15, 1e9};
+  TextTable table({"hidden with [sigma]", "trials", "anything named", "right"});
+  bool any = false;
+  for (std::size_t i = 0; i + 1 < std::size(edges); ++i) {
+    int count = 0, named = 0, right = 0;
+    for (const BlindTrial& trial : trials.trials) {
+      const double sigma = trial.hidden.significance;
+      if (trial.hidden.effect.empty() || sigma < edges[i] || sigma >= edges[i + 1]) continue;
+      ++count, named += !trial.named.effect.empty(), right += trial.right();
+    }
+    if (count == 0) continue;
+    any = true;
+    table.add({edges[i + 1] > 1e8 ? fmt::format("above {:g}", edges[i])
+                                  : fmt::format("{:g}-{:g}", edges[i], edges[i + 1]),
+               fmt::format("{}", count), fmt::format("{}", named), fmt::format("{}", right)});
+  }
+  return any ? table.str() : "";
 }
 
 // Strengths that would have been seen, and how well those that were are known.
@@ -201,6 +232,11 @@ BlindTrials run_resumable(const BlindTrialsCommand& command, const Model& base,
     record.keep_trial = [&](const BlindTrial& trial) { journal->append(to_json(trial)); };
     record.keep_full = [&](const FullTrial& trial) { journal->append(to_json(trial)); };
   }
+  PlannedOutput sealed(command.sealed);
+  record.seal = [&](std::span<const HiddenEffect> trials, std::span<const std::vector<HiddenEffect>> full) {
+    sealed.write(json_text(sealed_json(trials, full)));
+    sealed.commit();
+  };
   ProgressBar bar(command.output.quiet);
   return run_blind_trials(base, runs, options, bar.callback(), record);
 }
@@ -224,7 +260,8 @@ void run_trials(const BlindTrialsCommand& command) {
   json.write(json_text(result));
   json.commit();
   if (!command.output.quiet)
-    fmt::print("{}{}{}{:.0f} s\n", confusion(trials), power(trials), full_trials(trials), trials.seconds);
+    fmt::print("{}{}{}{}{:.0f} s\n", confusion(trials), named_by_strength(trials), power(trials),
+               full_trials(trials), trials.seconds);
 }
 
 }  // namespace
@@ -271,6 +308,8 @@ void add_blind_trials(CLI::App& floe) {
       command->options.light.light);
   app.add_option("--rows", command->rows, "Keeps every trial; the same command goes on where it was stopped")
       ->type_name("FILE.jsonl");
+  app.add_option("--sealed", command->sealed, "What is hidden, written before anything is asked")
+      ->type_name("FILE.json");
   add_simulation_options(app, command->run);
   add_output_options(app, command->output);
   app.footer(
@@ -280,7 +319,7 @@ void add_blind_trials(CLI::App& floe) {
       "  floe blind-trials runs.toml --effects tilt,noise --trials 5 --nothing 0\n"
       "  floe blind-trials runs.toml --full 5 --pairs 2 --outside 4 --rows trials.jsonl\n"
       "A whole diagnosis takes as long as floe diagnose does.");
-  app.callback([command] { run_trials(*command); });
+  app.callback([command] { say_why_no_result(command->output.json, [&] { run_trials(*command); }); });
 }
 
 }  // namespace floe

@@ -68,7 +68,8 @@ void add_run_options(CLI::App& app, SimulationSettings& settings) {
 void add_simulation_options(CLI::App& app, SimulationSettings& settings) {
   add_run_options(app, settings);
   add_number(app, "--oversize", "X", {1, 100}, "Modules are simulated X times wider, with 1/X^2 of the light",
-             settings.oversize);
+             settings.oversize)
+      ->each([&settings](const std::string&) { settings.oversize_given = true; });
 }
 
 std::string model_label(const ModelRequest& request) {

@@ -30,6 +30,7 @@ struct SimulationSettings {
   std::uint64_t seed = 1;  // --seed
   int threads = 0;         // --threads; 0: all cores
   double oversize = 5;     // --oversize
+  bool oversize_given = false;
 };
 void add_run_options(CLI::App& app, SimulationSettings& settings);         // --seed, --threads
 void add_simulation_options(CLI::App& app, SimulationSettings& settings);  // these and --oversize

@@ -255,7 +255,7 @@ void add_crystal(CLI::App& floe, const std::string& command_line) {
       "  floe crystal --photons 2000 --scaling --picture patterns.svg\n"
       "  floe crystal --elongation 1,1.4,2 --fabric isotropic --fabric 0.1,4 --photons 1000\n"
       "  floe crystal --elongation 1.7 --grain 2mm --photons 2000 --ice south-pole --into coarse-ice");
-  app.callback([command] { run_crystal(*command); });
+  app.callback([command] { say_why_no_result(command->printed.json, [&] { run_crystal(*command); }); });
 }
 
 }  // namespace floe

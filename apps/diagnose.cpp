@@ -63,9 +63,12 @@ Json effect_json(const NamedEffect& effect) {
 }
 
 Json region_json(const Region& region) {
-  return {{"axis", region.axis},        {"from", region.from},         {"to", region.to},
-          {"sign", region.sign},        {"relative", region.relative}, {"significance", region.significance},
-          {"sentence", region.sentence}};
+  Json json = {
+      {"axis", region.axis},        {"from", region.from},         {"to", region.to},
+      {"sign", region.sign},        {"relative", region.relative}, {"significance", region.significance},
+      {"sentence", region.sentence}};
+  if (!region.name.empty()) json["name"] = region.name;
+  return json;
 }
 
 Json step_json(const DiagnosisStep& step) {
@@ -84,6 +87,11 @@ Json step_json(const DiagnosisStep& step) {
                               {"significance", sigmas_of(effect.ln_p)},
                               {"changes_light_by", effect.best.size},
                               {"likeness_to_first", effect.likeness}});
+  json["likeness"] = Json::array();  // of the first few scores, with each other
+  for (Eigen::Index i = 0; i < step.scores.likeness.rows(); ++i) {
+    const Eigen::VectorXd row = step.scores.likeness.row(i);
+    json["likeness"].push_back(std::vector<double>(row.begin(), row.end()));
+  }
   for (const Trial& trial : step.trials) {
     json["fits"].push_back({{"effect", trial.suspect.effect},
                             {"place", trial.suspect.place},
@@ -105,7 +113,9 @@ Json diagnosis_json(const Diagnosis& diagnosis, const DiagnoseCommand& command, 
                {"improved_model", to_json(diagnosis.improved)},
                {"data", command.data},
                {"seed", command.options.seed},
+               {"oversize", command.options.oversize},
                {"left_out", diagnosis.left_out},
+               {"not_tested", diagnosis.not_tested},
                {"remarks", diagnosis.remarks},
                {"verdict", diagnosis.verdict},
                {"groups", Json::object()},
@@ -143,7 +153,9 @@ std::string summary(const Diagnosis& diagnosis, const DiagnoseCommand& command) 
   for (const std::string& sentence : diagnosis.left_out) text += "left out: " + sentence + "\n";
   text += verdict_sentence(diagnosis, command.options.alpha) + "\n";
   const std::vector<Region>& regions = diagnosis.steps.front().where.regions;
-  if (!diagnosis.verdict.empty() && !regions.empty()) text += regions.front().sentence + "\n";
+  constexpr double clear = 3;  // standard deviations
+  if (!diagnosis.verdict.empty() && !regions.empty() && regions.front().significance > clear)
+    text += regions.front().sentence + "\n";
   TextTable table({"effect", "parameter", "fitted", "error", "unit"});
   for (const NamedEffect& effect : diagnosis.effects) {
     if (effect.mean)
@@ -172,16 +184,16 @@ void run_diagnose(const DiagnoseCommand& given) {
   DiagnoseCommand command = given;
   command.options.seed = command.run.seed;
   command.options.threads = command.run.threads;
-  command.options.oversize = command.run.oversize;
   AtomicFolder folder(command.folder);
   PlannedOutput json(command.output.json);
   const std::vector<Event> events = read_flasher_file(command.data);
+  command.options.oversize = oversize_for(events, command.run);
   const Model base = load_model(command.model);
   expect_writable(base.ice->tables());
   const std::filesystem::path improved = folder.temporary() / improved_ice_folder;
   copy_base_ice(command.model, improved);
   const FlasherData data = flasher_data(*base.detector, events);
-  command.options.folds = std::min(command.options.folds, static_cast<int>(data.runs.size()));
+  command.options.folds = std::min(command.options.folds, flasher_count(data));
   Diagnosis diagnosis;
   {
     ProgressBar bar(command.output.quiet);
@@ -189,8 +201,12 @@ void run_diagnose(const DiagnoseCommand& given) {
   }
   const std::string result = json_text(diagnosis_json(diagnosis, command, base));
   const std::filesystem::path ice = command.model.ice;
-  const ReportFacts facts{command.data, (ice.has_filename() ? ice : ice.parent_path()).filename().string(),
-                          command.command, FLOE_VERSION, command.run.seed};
+  const ReportFacts facts{
+      command.data,     (ice.has_filename() ? ice : ice.parent_path()).filename().string(),
+      command.command,  FLOE_VERSION,
+      base.ice->hash(), diagnosis.improved.ice->hash(),
+      command.folder,   base.ice->flow_azimuth() / degree,
+      command.run.seed};
   write_whole_file(folder.temporary() / "result.json", result);
   write_whole_file(folder.temporary() / "report.html", report_html(diagnosis, command.options, facts));
   write_improved_ice(command.model, diagnosis.improved, diagnosis.beside_ice,
@@ -235,7 +251,7 @@ void add_diagnose(CLI::App& floe, const std::string& command_line) {
       "Examples:\n"
       "  floe diagnose runs.h5 --ice my-ice -o diagnosis\n"
       "  floe diagnose runs.h5 --ice my-ice -o diagnosis --light 5 --floor 0.01 --json result.json");
-  app.callback([command] { run_diagnose(*command); });
+  app.callback([command] { say_why_no_result(command->output.json, [&] { run_diagnose(*command); }); });
 }
 
 }  // namespace floe

@@ -159,7 +159,7 @@ void add_figures(CLI::App& floe, const std::string& command_line) {
              "  floe figures -o figures\n"
              "  floe figures --only azimuth --photons 1e10 -o precise\n"
              "  floe figures --only azimuth,light-curves --ice my-ice --json numbers.json -o of-my-ice");
-  app.callback([command] { run_figures(*command); });
+  app.callback([command] { say_why_no_result(command->output.json, [&] { run_figures(*command); }); });
 }
 
 }  // namespace floe

@@ -103,10 +103,10 @@ void run_fit_ice(const FitIceCommand& command) {
   IceFitOptions options = command.options;
   options.seed = command.run.seed;
   options.threads = command.run.threads;
-  options.oversize = command.run.oversize;
   AtomicFolder folder(command.folder);
   PlannedOutput json(command.output.json);
   const std::vector<Event> events = read_flasher_file(command.data);
+  options.oversize = oversize_for(events, command.run);
   const Model base = load_model(command.model);
   expect_writable(base.ice->tables());
   copy_base_ice(command.model, folder.temporary() / improved_ice_folder);
@@ -187,7 +187,7 @@ void add_fit_ice(CLI::App& floe, const std::string& command_line) {
       "  floe fit-ice runs.h5 --ice my-ice --fit birefringence,absorption,scattering --layers 10 -o fitted\n"
       "  floe fit-ice runs.hits --ice south-pole --fit absorption-anisotropy.k1,flow-azimuth -o fitted\n"
       "  floe fit-ice runs.h5 --fit flow-azimuth --start flow-azimuth.azimuth=100 -o fitted");
-  app.callback([command] { run_fit_ice(*command); });
+  app.callback([command] { say_why_no_result(command->output.json, [&] { run_fit_ice(*command); }); });
 }
 
 }  // namespace floe

@@ -27,7 +27,10 @@ Json covariance_json(const CascadeFit& fit) {
 }
 
 Json areas_json(const SkyMap& map) {
-  return {{"area_50_deg2", map.area(0.5)}, {"area_90_deg2", map.area(0.9)}, {"cut_90", map.is_cut(0.9)}};
+  return {{"area_50_deg2", map.area(0.5)},
+          {"area_90_deg2", map.area(0.9)},
+          {"cut_90", map.is_cut(0.9)},
+          {"errors_are_wider", map.errors_are_wider}};
 }
 
 Json profile_json(const ProfileIntervals& intervals) {
@@ -192,6 +195,12 @@ Json fit_json(const CascadeFit& fit) {
   if (fit.other_minimum) json["other_minimum"] = other_minimum_json(*fit.other_minimum);
   json["hypothesis"] = fit.kind == CascadeKind::hadron ? "hadron" : "em";
   json["ice"] = {{"name", fit.ice_name}, {"hash", fit.ice_hash}};
+  json["errors_beyond_likelihood"] = fit.errors_beyond_likelihood;
+  Json& simulation = json["simulation_errors"] = Json::object();
+  for (std::size_t i = 0; i < 7; ++i) {
+    const ShownParameter& shown = shown_parameters[i];
+    simulation[shown.key] = fit.simulation_errors(static_cast<Eigen::Index>(i)) / shown.unit_size;
+  }
   json["neg_llh_error"] = fit.neg_llh_error;
   json["bins"] = fit.bins;
   json["simulations"] = fit.simulations;

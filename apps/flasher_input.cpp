@@ -24,6 +24,28 @@ std::vector<Event> read_flasher_file(const std::string& file) {
   return events;
 }
 
+double oversize_for(const std::vector<Event>& runs, const SimulationSettings& settings) {
+  double of_runs = 0;
+  for (const Event& event : runs) {
+    if (!event.flasher || event.flasher->oversize == of_runs) continue;
+    if (of_runs > 0 && !settings.oversize_given)
+      throw InputError(
+          fmt::format("{}: simulated with oversize {:g}, a run before it with {:g}; say with "
+                      "--oversize which the simulations shall have, or use runs of one",
+                      event.id, event.flasher->oversize, of_runs));
+    of_runs = event.flasher->oversize;
+  }
+  const bool simulated = of_runs > 1;
+  if (!settings.oversize_given) return simulated ? of_runs : settings.oversize;
+  if (simulated && of_runs != settings.oversize)
+    fmt::print(
+        stderr,
+        "floe: warning: the data have oversize {:g}, simulations {:g}: wider modules see light earlier "
+        "and count some of it twice\n",
+        of_runs, settings.oversize);
+  return settings.oversize;
+}
+
 std::pair<double, double> parse_depths(const std::string& text) {
   const std::vector<std::string> parts = split_list(text);
   if (parts.size() != 2)

@@ -68,9 +68,9 @@ void run_ladder(const LadderCommand& command) {
   LadderOptions options = command.options;
   options.fit.seed = command.run.seed;
   options.fit.threads = command.run.threads;
-  options.fit.oversize = command.run.oversize;
   PlannedOutput json(command.output.json);
   const std::vector<Event> events = read_flasher_file(command.data);
+  options.fit.oversize = oversize_for(events, command.run);
   const Model base = load_model(command.model);
   const FlasherData data = flasher_data(*base.detector, events);
   Ladder ladder;
@@ -117,7 +117,7 @@ void add_ladder(CLI::App& floe) {
       "Examples:\n"
       "  floe ladder runs.h5 --ice my-ice\n"
       "  floe ladder runs.h5 --ice my-ice --folds 3 --light 10 --json ladder.json");
-  app.callback([command] { run_ladder(*command); });
+  app.callback([command] { say_why_no_result(command->output.json, [&] { run_ladder(*command); }); });
 }
 
 }  // namespace floe

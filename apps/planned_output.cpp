@@ -31,4 +31,15 @@ std::string json_line(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+void say_why_no_result(const std::optional<std::string>& json, const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const NoResult& error) {
+    PlannedOutput file(json);
+    file.write(json_text({{"status", "no_result"}, {"reason", error.what()}}));
+    file.commit();
+    throw;
+  }
+}
+
 }  // namespace floe

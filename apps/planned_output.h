@@ -2,6 +2,7 @@
 // does not end in an error that was there from the beginning.
 #pragma once
 
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -31,5 +32,9 @@ using Json = nlohmann::ordered_json;
 std::string json_text(const Json& json);
 // The same in one line, for attributes and journals. Names of files that are no UTF-8 are mended in both.
 std::string json_line(const Json& json);
+
+// Does `work`. Where it comes to no result, the JSON, if it was asked for, says why: `status` "no_result" and
+// `reason`. The error goes on.
+void say_why_no_result(const std::optional<std::string>& json, const std::function<void()>& work);
 
 }  // namespace floe

@@ -67,6 +67,7 @@ Json to_json(const SkyMap& map) {
           {"step", map.step},
           {"zenith", map.zenith},
           {"azimuth", map.azimuth},
+          {"errors_are_wider", map.errors_are_wider},
           {"delta_neg_llh", map.delta_neg_llh}};
 }
 
@@ -75,7 +76,8 @@ SkyMap sky_map_of(const Json& json) {
              json.at("step").get<double>(),
              json.at("zenith").get<double>(),
              json.at("azimuth").get<double>(),
-             {}};
+             {},
+             json.at("errors_are_wider").get<bool>()};
   for (const Json& delta : json.at("delta_neg_llh"))
     map.delta_neg_llh.push_back(delta.is_null() ? std::numeric_limits<double>::quiet_NaN()
                                                 : delta.get<double>());
@@ -117,7 +119,7 @@ class EventRun {
       : events_(events), model_(model), fit_(fit), quiet_(output.quiet), results_(events.size()) {
     if (output.json && events.size() > 1) {
       journal_ = std::make_unique<RowJournal>(*output.json + ".rows", heading_of(model, fit, events),
-                                              RowJournal::Mismatch::start_again);
+                                              RowJournal::Mismatch::error);
       for (const Json& row : journal_->rows())
         results_.at(row.at("index").get<std::size_t>()) = result_of(row);
     }
@@ -182,6 +184,8 @@ class EventRun {
         fmt::print(stderr, "floe: warning: event {}: {}\n", id, result.json["reason"].get<std::string>());
       if (fit_.sky_map_pixels > 0 && result.usable && !result.sky_map)
         fmt::print(stderr, "floe: warning: event {}: no map: the fit ended without its last step\n", id);
+      if (fit_.profile && result.usable && !result.json.at("fit").contains("profile"))
+        fmt::print(stderr, "floe: warning: event {}: no profile: the fit ended without its last step\n", id);
       if (!quiet_) fmt::print("event {}: {}", id, result.words);
     }
   }

@@ -184,9 +184,9 @@ void run_scan(const ScanCommand& command) {
   RunSettings options = command.options;
   options.seed = command.run.seed;
   options.threads = command.run.threads;
-  options.oversize = command.run.oversize;
   PlannedOutput json(command.output), picture(command.picture);
   const std::vector<Event> events = read_flasher_file(command.data);
+  options.oversize = oversize_for(events, command.run);
   const Model base = load_model(command.model);
   const ScanAxis x_axis = axis_of(x, command, base), y_axis = axis_of(y, command, base);
   FlasherData data = flasher_data(*base.detector, events);

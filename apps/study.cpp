@@ -1,6 +1,7 @@
 // floe study: can the fit's results and errors be believed?
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
 #include <memory>
 
@@ -72,8 +73,9 @@ StudySettings settings_of(const StudyCommand& command, const std::optional<Respo
   for (const std::string& text : command.groups) settings.groups.push_back(group_of(text));
   for (std::size_t i = 0; i < settings.groups.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
-      if (settings.groups[i].energy == settings.groups[k].energy)
-        throw UsageError(fmt::format("--group: {:g} GeV is given twice", settings.groups[i].energy));
+      if (std::abs(std::log10(settings.groups[i].energy / settings.groups[k].energy)) < 0.001)
+        throw UsageError(fmt::format("--group: {:g} GeV is given twice, or nearly (within 0.2%)",
+                                     settings.groups[i].energy));
   settings.truth = load_model(command.model);
   if (const auto other = other_model(command)) settings.other = load_model(*other);
   settings.seed = command.run.seed;

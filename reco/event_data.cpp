@@ -1,5 +1,7 @@
 #include "reco/event_data.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -197,7 +199,15 @@ double EventData::dark_noise(std::uint32_t module) const {
 void EventData::require_enough_light() const {
   const auto modules = static_cast<std::size_t>(
       std::count_if(lit_.begin(), lit_.end(), [](const ModuleData& data) { return data.charge > 0; }));
-  if (modules >= least_modules && charge_ >= least_charge) return;
+  double noise = 0;  // of all modules that are on
+  for (const ModuleData& data : lit_) noise += repeats_ * dark_noise(data.module);
+  for (const std::uint32_t module : dark_) noise += repeats_ * dark_noise(module);
+  if (modules >= least_modules && charge_ - noise >= least_charge) return;
+  if (modules >= least_modules && charge_ >= least_charge)
+    throw NoResult(
+        fmt::format("not enough light: {:.0f} photoelectrons, of which {:.0f} are dark noise; a fit "
+                    "needs {:.0f} more than that",
+                    charge_, noise, least_charge));
   throw NoResult("not enough light: " + std::to_string(modules) + " modules with hits and " +
                  std::to_string(std::lround(charge_)) + " photoelectrons; a fit needs " +
                  std::to_string(least_modules) + " modules and " + std::to_string(std::lround(least_charge)) +

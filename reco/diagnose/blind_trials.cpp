@@ -64,6 +64,7 @@ class Trials {
     result_.power = seen_above(tester, base_, alpha_of_score());
     const std::vector<Hidden> hidden = plan_trials(tester);
     const std::vector<Full> full = plan_full(hidden, survey);
+    seal(hidden, full);
     // A whole diagnosis takes as long as many tests of scores.
     done_ = 0, all_ = static_cast<double>(hidden.size()) + per_full * static_cast<double>(full.size());
     run_each(hidden.size(), 1, record_.trials, record_.keep_trial, result_.trials, [&](std::size_t t) {
@@ -83,6 +84,15 @@ class Trials {
     std::optional<FlasherData> outside;  // light with what no model has
   };
   static constexpr double per_full = 60;  // in fast trials
+
+  void seal(const std::vector<Hidden>& hidden, const std::vector<Full>& full) const {
+    if (!record_.seal) return;
+    std::vector<HiddenEffect> trials;
+    std::vector<std::vector<HiddenEffect>> whole;
+    for (const Hidden& h : hidden) trials.push_back(h.effect);
+    for (const Full& f : full) whole.push_back(f.hidden);
+    record_.seal(trials, whole);
+  }
 
   // Those that are known are taken as they are. `each`: of the progress, in fast trials.
   template <typename Result, typename Run>

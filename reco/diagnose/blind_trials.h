@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -67,6 +68,9 @@ struct TrialRecord {
   std::vector<FullTrial> full;
   std::function<void(const BlindTrial&)> keep_trial;
   std::function<void(const FullTrial&)> keep_full;
+  // Called with all that is hidden before anything is asked; what is asked is not given it.
+  std::function<void(std::span<const HiddenEffect> trials, std::span<const std::vector<HiddenEffect>> full)>
+      seal;
 };
 
 // `runs`: with photons, as flashers are simulated. Throws UsageError for options out of range.

@@ -6,8 +6,10 @@
 #include <chrono>
 #include <cmath>
 #include <iterator>
+#include <set>
 
 #include "data/base/error.h"
+#include "propagation/effects/effect.h"
 #include "reco/diagnose/effect_fits.h"
 #include "reco/diagnose/goodness.h"
 #include "reco/diagnose/stages.h"
@@ -22,12 +24,13 @@ constexpr std::uint64_t look_stream = std::uint64_t{1} << 44, judge_stream = std
                         gap_stream = judge_stream + (std::uint64_t{1} << 40);
 // Light of the gap's measurement, in units of that of fits: twice ln L of two simulations differs by tens
 // where they have hardly more light than the data.
-constexpr double light_of_gap = 5;
+constexpr double light_of_gap = 4;
 constexpr double leading_share = 0.35;  // of the best gain: suspects that are fitted, too
 constexpr std::size_t most_trials = 3;
+constexpr double hopeless_share = 0.3;   // of the best chi-square so far
 constexpr double confirmed_share = 0.4;  // of the gain that a score promised, by a fit
 
-void check_options(const DiagnosisOptions& options, std::size_t runs) {
+void check_options(const DiagnosisOptions& options, int flashers) {
   check(static_cast<const RunSettings&>(options));
   const auto require = [](bool right, const std::string& what) {
     if (!right) throw UsageError(what);
@@ -35,8 +38,8 @@ void check_options(const DiagnosisOptions& options, std::size_t runs) {
   require(options.alpha > 0 && options.alpha < 1, "alpha must be between 0 and 1");
   require(options.floor >= 0 && options.floor < 1, "the floor must be between 0 and 1");
   require(options.draws >= 50, "calibrations need at least 50 draws");
-  require(options.folds >= 1 && options.folds <= static_cast<int>(runs),
-          fmt::format("found {} folds; expected 1 to {}, the number of runs", options.folds, runs));
+  require(options.folds >= 1 && options.folds <= flashers,
+          fmt::format("found {} folds; expected 1 to {}, the number of flashers", options.folds, flashers));
 }
 
 class Diagnoser {
@@ -60,7 +63,7 @@ class Diagnoser {
     for (int step = 0;; ++step) {
       const bool gap = look_at(accepted_.model(), step);
       DiagnosisStep& now = result_.steps.back();
-      const bool added = gap && step < options_.most_effects && add_effect(now, step);
+      const bool added = gap && add_effect(now, step);
       if (step == 0) result_.p_value = std::min(1.0, 2 * std::min(now.p_of_fit, now.scores.p_value));
       if (added) continue;
       // Scores are valid whatever the slopes are: where no fit confirms the name, there is a gap without one.
@@ -69,6 +72,7 @@ class Diagnoser {
       break;
     }
     finish(unexplained);
+    tell_what_was_not_tested();
     return std::move(result_);
   }
 
@@ -93,7 +97,7 @@ class Diagnoser {
     if (survey.bins == 0)
       throw NoResult("not enough light: no receiver of any flasher run sees enough to be compared");
     DiagnosisStep now;
-    goodness(survey, now);
+    judge_fit(survey, now);
     const std::vector<Suspect> suspects = suspects_of(survey, plan);
     const ScoreTester tester(survey, suspects, plan.parameters, draws());
     now.scores = tester.test(measured_counts(survey), options_.floor);
@@ -127,12 +131,19 @@ class Diagnoser {
            effect.best.gain > least_gain && effect.ln_p < std::log(by_chance);
   }
 
-  void goodness(const Survey& survey, DiagnosisStep& now) const {
+  void judge_fit(const Survey& survey, DiagnosisStep& now) const {
     now.neg_llh = total_neg_llh(survey, measured_counts(survey));
     const ExpectedFit right = expected_fit(survey, draws());
     now.expected = right.mean;
     now.scatter = right.scatter;
-    now.p_of_fit = probability_of(now.neg_llh, right);
+    now.p_of_fit = probability_of(now.neg_llh - neg_llh_of_floor(), right);
+  }
+
+  // Of differences between programs as large as the floor, everywhere: they are no gap.
+  double neg_llh_of_floor() const {
+    double charge = 0;
+    for (const RunData& run : data_.runs) charge += run.charge;
+    return options_.floor * options_.floor * charge / 2;
   }
 
   double neg_llh_of_all(const Model& model) const {
@@ -144,6 +155,12 @@ class Diagnoser {
   // Fits the leading suspects and adds the best, when its fit confirms what its score said.
   bool add_effect(DiagnosisStep& now, int step) {
     if (now.scores.effects.empty() || now.scores.p_value >= options_.alpha / 2) return false;
+    if (step == options_.most_effects) {
+      result_.remarks.push_back(
+          fmt::format("{} was suspected beside them (p = {:.2g}); no more than {} effects are added",
+                      text_of(now.scores.effects.front().best.suspect), now.scores.p_value, step));
+      return false;
+    }
     std::vector<Candidate> candidates = fit_leading(now, step);
     if (candidates.empty()) {
       if (const Suspect& leader = now.scores.effects.front().best.suspect; accepted_.has(leader))
@@ -192,7 +209,9 @@ class Diagnoser {
   }
   void add_fitted(const Score& score, std::vector<Candidate>& candidates) {
     try {
-      candidates.push_back(fitted(score));
+      double best = 0;
+      for (const Candidate& candidate : candidates) best = std::max(best, candidate.trial.chi_square);
+      candidates.push_back(fitted(score, best));
     } catch (const InputError&) {
       result_.remarks.push_back(
           fmt::format("{} could not be fitted: no physical ice on its way", text_of(score.suspect)));
@@ -205,14 +224,19 @@ class Diagnoser {
     return accepted_.has(scores.effects.front().best.suspect) && effect.likeness > alike;
   }
 
-  Candidate fitted(const Score& score) {
+  // `best`: chi-square of the best so far. A fit that stays far behind it need not go on.
+  Candidate fitted(const Score& score, double best) const {
     Candidate candidate;
     Trial& trial = candidate.trial;
     trial.suspect = score.suspect;
     trial.parameters = fit_parameters(score.suspect, score.amplitudes, base_);
-    candidate.fit = fits_.fit(accepted_.parameters(trial.parameters));
+    const auto chi_square = [&](const IceFit& fit) {
+      return chi_square_of(trial.parameters, fit, accepted_.parameter_count(), base_);
+    };
+    candidate.fit = fits_.fit(accepted_.parameters(trial.parameters),
+                              [&](const IceFit& fit) { return chi_square(fit) < hopeless_share * best; });
     trial.neg_llh = neg_llh_of_all(with_parameters(base_, candidate.fit.parameters, candidate.fit.numbers));
-    trial.chi_square = chi_square_of(trial.parameters, candidate.fit, accepted_.parameter_count(), base_);
+    trial.chi_square = chi_square(candidate.fit);
     return candidate;
   }
 
@@ -323,6 +347,10 @@ class Diagnoser {
       while (!accepted_.empty())
         give_up(0, fmt::format("{} effects together leave a gap, and none of them names it", named));
     measure_gaps(found);
+    if (!accepted_.empty() && !result_.looked_at_improved) {
+      look_at(accepted_.model(), options_.most_effects + 1);
+      result_.looked_at_improved = true;
+    }
     // A gap whose names were given up is there all the same.
     if (found) unexplained = unexplained || accepted_.empty() || *result_.p_of_rest < options_.alpha / 2;
     result_.improved = accepted_.model();
@@ -331,6 +359,19 @@ class Diagnoser {
     tell_apart_what_came_in();
     if (unexplained) result_.verdict.push_back("unexplained");
     result_.beside_ice = accepted_.beside_ice();
+  }
+
+  void tell_what_was_not_tested() {
+    std::set<std::string> tested;
+    for (const EffectScore& effect : result_.steps.front().scores.effects)
+      tested.insert(effect.best.suspect.effect);
+    for (const Effect* effect : effects()) {
+      if (tested.contains(effect->name())) continue;
+      const bool unseen = effect->name() == "hole-ice" && options_.oversize > 1;
+      result_.not_tested[effect->name()] =
+          unseen ? "modules that are simulated wider do not see it; --oversize 1 does"
+                 : "it changes no light of these runs that their brightness and time zero do not take up";
+    }
   }
 
   // A rival that a joint fit needed as well is no alternative once it has been named itself.
@@ -357,7 +398,7 @@ class Diagnoser {
   void measure_gaps(bool found) {
     RunSettings settings = options_;
     if (found) settings.light.light *= light_of_gap, settings.light.least_hits *= light_of_gap;
-    result_.folds = std::min(options_.folds, static_cast<int>(data_.runs.size()));
+    result_.folds = std::min(options_.folds, flasher_count(data_));
     HeldOutGaps gaps(base_, data_, look_, settings, gap_stream, result_.folds, fits_);
     for (std::size_t r = 0; r < data_.runs.size(); ++r)
       result_.gaps.push_back({data_.runs[r].name, gaps.of_base()[r], 0});
@@ -376,7 +417,8 @@ class Diagnoser {
       refit();
     }
     std::ranges::copy(gaps.remarks(), std::back_inserter(result_.remarks));
-    result_.p_of_rest = accepted_.empty() ? gaps.p_of_base() : gaps.p_of(accepted_.model());
+    result_.p_of_rest = accepted_.empty() ? gaps.p_of_base(neg_llh_of_floor())
+                                          : gaps.p_of(accepted_.model(), neg_llh_of_floor());
   }
   void take_gaps(const Gaps& gaps) {
     for (std::size_t r = 0; r < gaps.size(); ++r) result_.gaps[r].after = gaps[r];
@@ -411,7 +453,7 @@ class Diagnoser {
 
 Diagnosis diagnose(const Model& base, const FlasherData& data, const DiagnosisOptions& options,
                    const Progress& progress) {
-  check_options(options, data.runs.size());
+  check_options(options, flasher_count(data));
   const auto start = std::chrono::steady_clock::now();
   Diagnosis result = Diagnoser(base, data, options, progress).run();
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -2,6 +2,7 @@
 // the gap, and how much of it. Theory: docs/theory/diagnose.md.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -59,8 +60,9 @@ struct Diagnosis {
   // Of so bad a fit of the improved model to all runs, measured with the light of gaps; of the base model
   // when everything that was added has been given up again. None: nothing was added.
   std::optional<double> p_of_rest;
-  std::vector<std::string> left_out;  // of the data, a sentence each
-  std::vector<std::string> remarks;   // effects that were given up again
+  std::vector<std::string> left_out;              // of the data, a sentence each
+  std::map<std::string, std::string> not_tested;  // effects of the catalogue, and why
+  std::vector<std::string> remarks;               // effects that were given up again
   Model improved;
   EffectGroups beside_ice;  // of the effects, those that no file of an ice directory can hold but floe.toml
   double seconds = 0;

@@ -8,7 +8,7 @@ namespace floe {
 
 namespace {
 
-constexpr int rounds_of_fits = 4, rounds_of_layers = 7, rounds_of_folds = 3, rounds_of_rivals = 5;
+constexpr int rounds_of_fits = 4, rounds_of_layers = 5, rounds_of_folds = 3, rounds_of_rivals = 5;
 constexpr double light_of_pairs = 0.5;  // of fits, in units of a run's own simulation
 constexpr double light_of_first_round = 0.4;
 constexpr double light_of_folds = 2.5;  // in units of other fits'
@@ -24,8 +24,8 @@ double brightest_run(const FlasherData& data) {
 
 }  // namespace
 
-IceFit EffectFits::fit(const std::vector<IceParameter>& parameters) const {
-  return fit(data_, parameters, rounds_of_fits, 1);
+IceFit EffectFits::fit(const std::vector<IceParameter>& parameters, const Settled& settled) const {
+  return fit(data_, parameters, rounds_of_fits, 1, settled);
 }
 
 IceFit EffectFits::fit_layers(const std::vector<IceParameter>& parameters) const {
@@ -36,8 +36,7 @@ IceFit EffectFits::fit_to(const FlasherData& runs, const std::vector<IceParamete
   return fit(runs, parameters, rounds_of_folds, light_of_folds);
 }
 
-IceFit EffectFits::fit_rivals(const std::vector<IceParameter>& parameters,
-                              const std::function<bool(const IceFit&)>& settled) const {
+IceFit EffectFits::fit_rivals(const std::vector<IceParameter>& parameters, const Settled& settled) const {
   IceFitOptions asked = options(rounds_of_rivals);
   asked.settled = settled;
   asked.light.least_hits =
@@ -55,12 +54,13 @@ IceFitOptions EffectFits::options(int rounds) const {
 
 // `light`: in units of other fits'; the first round and slopes from pairs have enough.
 IceFit EffectFits::fit(const FlasherData& runs, const std::vector<IceParameter>& parameters, int rounds,
-                       double light) const {
+                       double light, const Settled& settled) const {
   IceFitOptions asked = options(rounds);
   asked.light.light *= light, asked.light.least_hits *= light;
   asked.pair_light = light_of_pairs / light;
   asked.least_pair_hits = enough_pair_hits;
   asked.first_light = light_of_first_round / light;
+  asked.settled = settled;
   return fit_ice(base_, runs, parameters, asked, stages_.part());
 }
 

@@ -19,21 +19,22 @@ class EffectFits {
   EffectFits(const Model& base, const FlasherData& data, const RunSettings& settings, const Stages& stages)
       : base_(base), data_(data), settings_(settings), stages_(stages) {}
 
-  IceFit fit(const std::vector<IceParameter>& parameters) const;
+  // Ends a fit early (IceFitOptions).
+  using Settled = std::function<bool(const IceFit&)>;
+
+  IceFit fit(const std::vector<IceParameter>& parameters, const Settled& settled = {}) const;
   // Of layers, which follow one another slowly.
   IceFit fit_layers(const std::vector<IceParameter>& parameters) const;
   // To these runs only; with more light, since what they tell of the others is extrapolated, and the noise of
   // simulations with it.
   IceFit fit_to(const FlasherData& runs, const std::vector<IceParameter>& parameters) const;
-  // Of rivals: where they are alike, noise of slopes and simulations decides soonest. Ends when it is
-  // `settled` (IceFitOptions).
-  IceFit fit_rivals(const std::vector<IceParameter>& parameters,
-                    const std::function<bool(const IceFit&)>& settled) const;
+  // Of rivals: where they are alike, noise of slopes and simulations decides soonest.
+  IceFit fit_rivals(const std::vector<IceParameter>& parameters, const Settled& settled) const;
 
  private:
   IceFitOptions options(int rounds) const;
-  IceFit fit(const FlasherData& runs, const std::vector<IceParameter>& parameters, int rounds,
-             double light) const;
+  IceFit fit(const FlasherData& runs, const std::vector<IceParameter>& parameters, int rounds, double light,
+             const Settled& settled = {}) const;
 
   const Model& base_;
   const FlasherData& data_;

@@ -35,9 +35,13 @@ ExpectedFit right_fit(const std::vector<ModelJudge::Fit>& fits) {
 }
 
 // What only the runs that are held out tell of is not known: a prior, as wide as a large change, leaves it
-// where it changes nothing, and the place of a band where it is.
+// where it changes nothing, and the place of a band where the fit to all runs has it. Layers begin where
+// their own prior has them.
 void expect_no_change(IceParameter& p, const Model& base) {
-  if (!p.family.empty() || p.prior > 0) return;
+  if (!p.family.empty() || p.prior > 0) {
+    if (p.logarithmic) p.start = p.prior_centre.value_or(p.start);
+    return;
+  }
   p.prior = p.scale;
   p.prior_centre = is_place_of_band(p) ? p.start : null_number(p, base);
 }
@@ -89,13 +93,13 @@ Model HeldOutGaps::fitted_without(int fold, const AcceptedEffects& effects) {
   }
 }
 
-double HeldOutGaps::p_of_base() const {
-  return probability_of(neg_llh_of(fits_of_base_), right_of_base_);
+double HeldOutGaps::p_of_base(double allowed) const {
+  return probability_of(neg_llh_of(fits_of_base_) - allowed, right_of_base_);
 }
 
-double HeldOutGaps::p_of(const Model& model) const {
+double HeldOutGaps::p_of(const Model& model, double allowed) const {
   const std::vector<ModelJudge::Fit> fits = fits_of(model);
-  return probability_of(neg_llh_of(fits), right_fit(fits));
+  return probability_of(neg_llh_of(fits) - allowed, right_fit(fits));
 }
 
 std::vector<ModelJudge::Fit> HeldOutGaps::fits_of(const Model& model) const {

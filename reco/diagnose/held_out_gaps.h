@@ -41,9 +41,10 @@ class HeldOutGaps {
   // to `to`.
   Gaps of(const AcceptedEffects& effects, Stages& stages, double from, double to);
 
-  // Probability of so bad a fit of all runs, were the model true.
-  double p_of_base() const;
-  double p_of(const Model& model) const;
+  // Probability of so bad a fit of all runs, were the model true but for differences that raise -ln L by
+  // `allowed`.
+  double p_of_base(double allowed) const;
+  double p_of(const Model& model, double allowed) const;
 
   // Sentences on groups that the others could not be fitted without.
   const std::vector<std::string>& remarks() const { return remarks_; }

@@ -4,7 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <map>
+#include <optional>
+#include <utility>
 
+#include "data/module_id.h"
 #include "reco/figures/svg.h"
 
 namespace floe {
@@ -24,6 +29,8 @@ std::string table(const std::vector<std::string>& heading,
   return text + "</table>\n";
 }
 
+constexpr double sticks_out = 2;  // standard deviations
+
 std::string value_text(double value, double error, const std::string& unit) {
   const int digits = error > 0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 6) : 3;
   return fmt::format("{:.{}f} ± {:.{}f}{}{}", value, digits, error, digits, unit.empty() ? "" : " ", unit);
@@ -42,8 +49,12 @@ const ResidualProfile* profile_of(const DiagnosisStep& step, const std::string& 
 // Points with errors, before (red) and after (blue), against one axis.
 class ProfilePlot {
  public:
-  ProfilePlot(const ResidualProfile& before, const ResidualProfile* after) : svg_(width, height) {
+  // `marked`: a place on the axis that has a name.
+  ProfilePlot(const ResidualProfile& before, const ResidualProfile* after,
+              const std::optional<std::pair<double, std::string>>& marked)
+      : svg_(width, height) {
     low_ = before.low.front(), high_ = before.high.back();
+    if (high_ == low_) high_ = low_ + 1;
     reach_ = 0.05;
     for (const ResidualProfile* p : {&before, after})
       for (std::size_t i = 0; p && i < p->low.size(); ++i)
@@ -51,6 +62,7 @@ class ProfilePlot {
           reach_ = std::max(reach_, std::abs(p->relative[i]) + p->error[i]);
     reach_ = std::min(reach_ * 1.1, 1.0);
     frame(before);
+    if (marked) mark(*marked);
     draw(before, "#c0392b", -1.5);
     if (after) draw(*after, "#2166ac", 1.5);
   }
@@ -77,6 +89,13 @@ class ProfilePlot {
               Anchor::middle);
   }
 
+  void mark(const std::pair<double, std::string>& place) {
+    const double at = x(place.first);
+    svg_.line({at, top}, {at, height - bottom}, {"#888888", 1, "4 3"});
+    svg_.text({at + 4, top + 10}, place.second, 11, Anchor::start, "#666666");
+  }
+
+  // What is beyond the frame has an arrow at its edge.
   void draw(const ResidualProfile& p, const std::string& colour, double shift) {
     for (std::size_t i = 0; i < p.low.size(); ++i) {
       if (!(p.error[i] > 0) || p.error[i] > reach_) continue;
@@ -84,7 +103,11 @@ class ProfilePlot {
       const auto inside = [&](double value) { return y(std::clamp(value, -reach_, reach_)); };
       svg_.line({at, inside(p.relative[i] - p.error[i])}, {at, inside(p.relative[i] + p.error[i])},
                 {colour, 1.2, ""});
-      svg_.circle({at, inside(p.relative[i])}, 2.6, colour);
+      if (std::abs(p.relative[i]) <= reach_)
+        svg_.circle({at, inside(p.relative[i])}, 2.6, colour);
+      else
+        svg_.text({at, p.relative[i] > 0 ? top + 10 : height - bottom - 2}, p.relative[i] > 0 ? "▲" : "▼", 10,
+                  Anchor::middle, colour);
     }
   }
 
@@ -92,21 +115,81 @@ class ProfilePlot {
   double low_ = 0, high_ = 1, reach_ = 0.1;
 };
 
+// Every module that saw light enough, by string and number: how many standard deviations the data are above
+// (red) or below (blue) the model.
+class ModuleMap {
+ public:
+  ModuleMap(const ResidualProfile& modules, const std::string& title) {
+    std::map<int, double> column_of;  // by string
+    std::vector<ModuleId> ids;
+    for (const std::string& name : modules.names) {
+      ModuleId id;
+      if (std::sscanf(name.c_str(), "%d,%d", &id.string, &id.dom) == 2) column_of[id.string] = 0;
+      ids.push_back(id);
+    }
+    const double cell = std::clamp(width / std::max<double>(1, double(column_of.size())), 1.0, 12.0);
+    double next = left;
+    for (auto& [string, at] : column_of) at = next, next += cell;
+    svg_ = Svg(left + width + 10, top + rows * row + 30);
+    svg_.rectangle({0, 0}, left + width + 10, top + rows * row + 30, "#ffffff");
+    svg_.text({left, 16}, title, 12, Anchor::start, "#222222", true);
+    svg_.rectangle({left, top}, next - left, rows * row, "#f4f4f4");
+    for (std::size_t i = 0; i < ids.size(); ++i)
+      if (modules.error[i] > 0)
+        svg_.rectangle({column_of[ids[i].string], top + (ids[i].dom - 1) * row}, cell, row,
+                       colour_of(modules.relative[i] / modules.error[i]));
+    for (const int dom : {1, 20, 40, 60})
+      svg_.text({left - 5, top + (dom - 0.5) * row + 4}, fmt::format("{}", dom), 11, Anchor::end);
+    const int every = std::max(1, static_cast<int>(std::ceil(22 / cell)));
+    int count = 0;
+    for (const auto& [string, at] : column_of)
+      if (count++ % every == 0)
+        svg_.text({at + cell / 2, top + rows * row + 13}, fmt::format("{}", string), 10, Anchor::middle);
+    svg_.text({left, top + rows * row + 26}, "string; DOM number downwards", 11);
+  }
+  std::string str() const { return svg_.str(); }
+
+ private:
+  static constexpr double width = 480, left = 30, top = 26, row = 4;
+  static constexpr int rows = 60;
+
+  static std::string colour_of(double sigmas) {
+    constexpr double full = 4;
+    const double share = std::clamp(sigmas / full, -1.0, 1.0);
+    const int pale = static_cast<int>(std::lround(235 * (1 - std::abs(share))));
+    return share > 0 ? fmt::format("#c8{:02x}{:02x}", pale, pale)
+                     : fmt::format("#{:02x}{:02x}c8", pale, pale);
+  }
+
+  Svg svg_{1, 1};
+};
+
 std::string inline_svg(const std::string& document) {
   const std::size_t start = document.find("<svg");
   return start == document.npos ? document : document.substr(start);
 }
 
-std::string pictures(const Diagnosis& diagnosis) {
+std::string pictures(const Diagnosis& diagnosis, double flow_deg) {
   std::string text = "<div class=plots>\n";
   const DiagnosisStep& first = diagnosis.steps.front();
   const bool improved = diagnosis.steps.size() > 1 && diagnosis.looked_at_improved;
   const DiagnosisStep* last = improved ? &diagnosis.steps.back() : nullptr;
-  for (const char* axis : {"azimuth", "depth", "distance", "arrival angle"})
-    if (const ResidualProfile* before = profile_of(first, axis))
-      text += inline_svg(ProfilePlot(*before, last ? profile_of(*last, axis) : nullptr).str()) + "\n";
-  return text + "</div>\n<p class=key><span style='color:#c0392b'>●</span> base model" +
-         (last ? " &nbsp; <span style='color:#2166ac'>●</span> with what was added" : "") + "</p>\n";
+  for (const char* axis : {"azimuth", "depth", "distance", "arrival angle", "time", "string"})
+    if (const ResidualProfile* before = profile_of(first, axis)) {
+      std::optional<std::pair<double, std::string>> flow;
+      if (before->circular) flow.emplace(std::fmod(std::fmod(flow_deg, 180) + 180, 180), "flow");
+      text += inline_svg(ProfilePlot(*before, last ? profile_of(*last, axis) : nullptr, flow).str()) + "\n";
+    }
+  text += fmt::format("</div>\n<p class=key><span style='color:#c0392b'>●</span> base model{}</p>\n",
+                      last ? " &nbsp; <span style='color:#2166ac'>●</span> with what was added" : "");
+  text += "<div class=plots>\n";
+  if (const ResidualProfile* modules = profile_of(first, "module"))
+    text += inline_svg(ModuleMap(*modules, "Module by module: base model").str()) + "\n";
+  if (const ResidualProfile* modules = last ? profile_of(*last, "module") : nullptr)
+    text += inline_svg(ModuleMap(*modules, "With what was added: what stays unexplained").str()) + "\n";
+  return text +
+         "</div>\n<p class=key>Data <span style='color:#c80000'>■</span> above, <span "
+         "style='color:#0000c8'>■</span> below the model, full colour at 4 standard deviations</p>\n";
 }
 
 std::string place_text(const NamedEffect& effect) {
@@ -152,6 +235,20 @@ std::string score_table(const DiagnosisStep& step) {
       rows);
 }
 
+// How much of a row's change of light the column's effect can imitate.
+std::string confusion_table(const DiagnosisStep& step) {
+  std::vector<std::string> heading{"change of light by"};
+  std::vector<std::vector<std::string>> rows;
+  const Eigen::MatrixXd& likeness = step.scores.likeness;
+  for (Eigen::Index i = 0; i < likeness.rows(); ++i) {
+    heading.push_back(step.scores.effects[static_cast<std::size_t>(i)].best.suspect.effect);
+    rows.push_back({heading.back()});
+    for (Eigen::Index j = 0; j < likeness.cols(); ++j)
+      rows.back().push_back(fmt::format("{:.2f}", likeness(i, j)));
+  }
+  return table(heading, rows);
+}
+
 std::string trial_table(const DiagnosisStep& step) {
   std::vector<std::vector<std::string>> rows;
   for (const Trial& trial : step.trials)
@@ -166,7 +263,8 @@ std::string trial_table(const DiagnosisStep& step) {
 std::string region_table(const DiagnosisStep& step) {
   std::vector<std::vector<std::string>> rows;
   for (const Region& region : step.where.regions)
-    rows.push_back({region.axis, fmt::format("{:.1f}", region.significance), region.sentence});
+    rows.push_back({region.axis, fmt::format("{:.1f}", region.significance),
+                    region.significance > sticks_out ? region.sentence : "Nothing sticks out."});
   return table({"axis", "standard deviations", "most significant region"}, rows);
 }
 
@@ -179,6 +277,9 @@ std::string step_text(const Diagnosis& diagnosis, std::size_t i) {
       step.scatter, p_text(step.p_of_fit), p_text(step.scores.p_value));
   text += "<h3>Where</h3>\n" + region_table(step);
   text += "<h3>Which effect would explain it</h3>\n" + score_table(step);
+  if (step.scores.likeness.rows() > 1)
+    text +=
+        "<h3>Confusion: what the column can imitate of what the row changes</h3>\n" + confusion_table(step);
   if (!step.trials.empty()) text += "<h3>Leading suspects, fitted</h3>\n" + trial_table(step);
   return text;
 }
@@ -231,7 +332,9 @@ std::string verdict_sentence(const Diagnosis& diagnosis, double alpha) {
   const bool unexplained = diagnosis.verdict.back() == "unexplained";
   std::string text;
   for (const NamedEffect& effect : diagnosis.effects)
-    text += (text.empty() ? "" : ", and ") + text_of(effect.suspect);
+    text +=
+        (text.empty() ? "" : ", and ") + text_of(effect.suspect) +
+        (effect.group.size() > 1 ? fmt::format(" (or {}: these data cannot tell)", alike_text(effect)) : "");
   if (text.empty())
     return fmt::format("Something is missing (p = {}) that no effect of the catalogue explains.",
                        p_text(diagnosis.p_value));
@@ -253,7 +356,7 @@ std::string report_html(const Diagnosis& diagnosis, const DiagnosisOptions& opti
     for (std::size_t i = 0; i < std::min<std::size_t>(3, regions.size()); ++i)
       if (regions[i].significance > 3)
         text += fmt::format("<p>{}</p>\n", markup_escaped(regions[i].sentence));
-  text += pictures(diagnosis);
+  text += pictures(diagnosis, facts.flow_deg);
   if (!diagnosis.effects.empty()) text += "<h2>Added to the model</h2>\n" + effects_table(diagnosis);
   for (const NamedEffect& effect : diagnosis.effects)
     for (const Separation& separation : effect.separations)
@@ -267,12 +370,22 @@ std::string report_html(const Diagnosis& diagnosis, const DiagnosisOptions& opti
       text += "<li>" + markup_escaped(sentence) + "</li>\n";
     text += "</ul>\n";
   }
+  if (!diagnosis.not_tested.empty()) {
+    text += "<h2>Not tested</h2>\n<ul>\n";
+    for (const auto& [effect, why] : diagnosis.not_tested)
+      text += fmt::format("<li>{}: {}</li>\n", effect, markup_escaped(why));
+    text += "</ul>\n";
+  }
   text += fmt::format(
       "<h2>To repeat this</h2>\n<p><code>{}</code></p>\n<p>floe {}, seed {}, {:.0f} s. alpha {:g}: the "
       "probability of naming anything when nothing is missing. Floor {:g}%: smaller changes of light are not "
-      "told from differences between programs.</p>\n</body></html>\n",
+      "told from differences between programs.</p>\n<p>Base model {}, improved model {} (hashes of ice). To "
+      "look "
+      "at the improved model again: <code>floe diagnose {} --ice {}/improved-ice -o again</code></p>\n"
+      "</body></html>\n",
       markup_escaped(facts.command), facts.version, facts.seed, diagnosis.seconds, options.alpha,
-      100 * options.floor);
+      100 * options.floor, facts.base_hash, facts.improved_hash, markup_escaped(facts.data),
+      markup_escaped(facts.folder));
   return text;
 }
 

@@ -9,6 +9,9 @@ namespace floe {
 
 struct ReportFacts {
   std::string data, ice, command, version;
+  std::string base_hash, improved_hash;
+  std::string folder;  // of the result
+  double flow_deg = 0;
   std::uint64_t seed = 1;
 };
 

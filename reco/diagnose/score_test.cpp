@@ -132,6 +132,8 @@ std::vector<TestedSuspect> prepare(const Survey& survey, const std::vector<Suspe
   return tested;
 }
 
+constexpr std::size_t leaders_compared = 6;  // with each other
+
 // Of slopes that are mostly noise, nobody knows what they are like.
 constexpr double least_known = 0.25;
 
@@ -277,16 +279,29 @@ ScoreTest ScoreTester::test(const SurveyCounts& counts, double floor) const {
                    [](const EffectScore& a, const EffectScore& b) { return a.ln_p < b.ln_p; });
   const EffectScore& first = result.effects.front();
   result.p_value = std::exp(ln_probability(-first.ln_p, ln_number_of_all_));
-  const TestedSuspect& of_first = *best.at(first.best.suspect.effect);
-  for (EffectScore& effect : result.effects) {
-    // Of all its places, the one that imitates best.
-    for (const TestedSuspect& t : tested_)
-      if (t.suspect->effect == effect.best.suspect.effect)
-        effect.likeness =
-            std::max(effect.likeness, imitation(first.best, of_first, t, survey_.information).likeness);
-  }
+  for (EffectScore& effect : result.effects)
+    effect.likeness = likeness(first.best, effect.best.suspect.effect);
   result.effects.front().likeness = 1;  // whatever its slopes are
+
+  const auto leaders =
+      static_cast<Eigen::Index>(std::min<std::size_t>(leaders_compared, result.effects.size()));
+  result.likeness = MatrixXd::Identity(leaders, leaders);
+  for (Eigen::Index i = 0; i < leaders; ++i)
+    for (Eigen::Index j = 0; j < leaders; ++j)
+      if (i != j)
+        result.likeness(i, j) = likeness(result.effects[static_cast<std::size_t>(i)].best,
+                                         result.effects[static_cast<std::size_t>(j)].best.suspect.effect);
   return result;
+}
+
+// Of all places of the other, the one that imitates best.
+double ScoreTester::likeness(const Score& score, const std::string& other) const {
+  const TestedSuspect& own = tested(score.suspect);
+  double most = 0;
+  for (const TestedSuspect& t : tested_)
+    if (t.suspect->effect == other)
+      most = std::max(most, imitation(score, own, t, survey_.information).likeness);
+  return most;
 }
 
 const TestedSuspect& ScoreTester::tested(const Suspect& suspect) const {

@@ -38,7 +38,10 @@ struct EffectScore {
 
 struct ScoreTest {
   std::vector<EffectScore> effects;  // the least ln_p first; likeness is with the first
-  double p_value = 1;                // of the first, for everything tried
+  // Of the first few with each other: how much of what the row's best suspect changes the column's effect can
+  // imitate. 1 on the diagonal.
+  Eigen::MatrixXd likeness;
+  double p_value = 1;  // of the first, for everything tried
 };
 
 // Whether the data cannot tell this effect from the first in the ranking: what they change is the same light,
@@ -92,6 +95,7 @@ class ScoreTester {
  private:
   Score score_of(const TestedSuspect& tested, const Eigen::VectorXd& gap, double floor) const;
   std::optional<Score> elsewhere(const Score& best, const Eigen::VectorXd& gap, double floor) const;
+  double likeness(const Score& score, const std::string& other) const;
 
   const Survey& survey_;
   std::vector<TestedSuspect> tested_;

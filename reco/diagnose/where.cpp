@@ -94,6 +94,7 @@ Region region_of(const AxisCells& axis, const Extreme& at, const Residuals& cell
   region.axis = axis.axis;
   region.from = axis.low[static_cast<std::size_t>(at.first)];
   region.to = axis.high[static_cast<std::size_t>((at.first + at.cells - 1) % size)];
+  if (!axis.names.empty()) region.name = axis.names[static_cast<std::size_t>(at.first)];
   region.sign = at.z < 0 ? -1 : 1;
   region.relative = light > 0 ? off / light : 0;
   region.significance = significance;

@@ -17,6 +17,7 @@ struct ResidualProfile : AxisCells {
 struct Region {
   std::string axis;
   double from = 0, to = 0;
+  std::string name = {};    // of a string or module, "36" or "36,20", where there is no range
   int sign = 0;             // +1: the data have more light than the model
   double relative = 0;      // by that share
   double significance = 0;  // standard deviations, corrected for the places looked at on this axis

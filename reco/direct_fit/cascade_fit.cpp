@@ -111,8 +111,10 @@ void look_around(const Search::End& end, const FitOptions& options, CascadeFit& 
   if (options.sky_map_pixels == 0 && !options.profile) return;
   const std::optional<ScoreLikelihood> likelihood = end.likelihood();
   if (!likelihood) return;
-  if (options.sky_map_pixels > 0)
+  if (options.sky_map_pixels > 0) {
     fit.sky_map = make_sky_map(*likelihood, options.sky_map_pixels, options.threads);
+    fit.sky_map->errors_are_wider = fit.errors_beyond_likelihood;
+  }
   if (options.profile) fit.profile = profile_intervals(*likelihood, options.kind);
 }
 
@@ -127,6 +129,9 @@ void find_result(ExpectationModel& light, const EventData& data, const FitOption
   fit.cascade = cascade_of(end.light, options.kind);
   const Matrix7 jacobian = LocalFrame(end.light).jacobian(Vector7::Zero(), options.kind);
   fit.covariance = jacobian * end.covariance * jacobian.transpose();
+  if (end.simulation_covariance)
+    fit.simulation_errors =
+        (jacobian * *end.simulation_covariance * jacobian.transpose()).diagonal().cwiseMax(0).cwiseSqrt();
   const Matrix7 of_likelihood = fit.covariance;
   if (end.converged && end.weight_loss() > trusted_loss) {
     const Matrix7 bound = cramer_rao_bound(light, fit.cascade, data, options, &fit);

@@ -91,6 +91,9 @@ struct CascadeFit {
   // are as likely, with the way there.
   Matrix7 covariance = Matrix7::Constant(std::numeric_limits<double>::quiet_NaN());
   bool errors_beyond_likelihood = false;  // any of these: sky map and profile know nothing of it
+  // Of each parameter's error, what the noise of the simulations made: streams are frozen while the score is
+  // solved, and the fresh photons of the last calibration show what that cost. NaN where that is not known.
+  Vector7 simulation_errors = Vector7::Constant(std::numeric_limits<double>::quiet_NaN());
 
   // When they were asked for, and the fit ended with the calibrated score.
   std::optional<SkyMap> sky_map;

@@ -47,6 +47,8 @@ class Search {
   struct End {
     LightCentre light;
     Matrix7 covariance;  // of the local numbers around `light`
+    // The part of it that the noise of the simulations made, as fresh ones show; none where it is not known.
+    std::optional<Matrix7> simulation_covariance = {};
     bool converged = false;
     double pull = std::numeric_limits<double>::infinity();  // largest last step in units of its error
     bool unsolved = false;                                  // the calibrated score has no solution

@@ -81,6 +81,7 @@ void Search::end_without_solution(End& end, std::span<const LightCentre> visited
   if (const std::optional<AveragePlace> average = walked_about(visited)) {
     end.light = average->light;
     end.covariance = average->scatter;
+    end.simulation_covariance.reset();
     end.converged = true;
     return;
   }
@@ -90,6 +91,7 @@ void Search::end_without_solution(End& end, std::span<const LightCentre> visited
   const RoundEnd last = settle(end.light, wide, most_rounds_without_score, true);
   end.light = last.light;
   end.covariance = data_.charge_dispersion() * covariance_of(last.fit.information);
+  end.simulation_covariance.reset();
   end.converged = has_settled(last, wide);
   if (!end.converged) end.trouble = "the data do not determine all seven numbers";
 }
@@ -159,6 +161,7 @@ void Search::calibrate(End& end) {
   const bool stays = !inside && !enough_light;  // weights that lose so much do not say where to
   if (!stays) end.light = frame.at(solution.step);
   end.covariance = solution.covariance;
+  end.simulation_covariance = solution.covariance - solution.data_covariance;
   const double scatter = calibration->excess_scatter =
       data_.charge_dispersion() - 1 + options_.data_widened * std::max(0.0, solution.dispersion - 1);
   if (scatter > 0) end.covariance += scatter * solution.data_covariance;

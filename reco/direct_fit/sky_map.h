@@ -26,6 +26,9 @@ struct SkyMap {
   double zenith = 0, azimuth = 0;     // of the centre [rad]
   std::vector<double> delta_neg_llh;  // pixels x pixels, row by row: the lowest -ln L at each direction,
                                       // whatever the other parameters are, above the best; NaN: not known
+  // The fit's errors know of more than this minimum (CascadeFit::errors_beyond_likelihood): the regions of
+  // the map are too small.
+  bool errors_are_wider = false;
 
   double at(int row, int column) const {
     return delta_neg_llh[static_cast<std::size_t>(row) * static_cast<std::size_t>(pixels) +

@@ -47,6 +47,7 @@ void write_map(hid_t file, const std::string& name, const SkyMapOfEvent& entry) 
   write_attribute(group, "zenith_deg", map.zenith / degree);
   write_attribute(group, "azimuth_deg", map.azimuth / degree);
   write_attribute(group, "step_deg", map.step / degree);
+  write_attribute(group, "errors_are_wider", std::uint64_t{map.errors_are_wider});
   for (const int percent : {50, 90, 99}) {
     const double share = percent / 100.0;
     write_attribute(group, fmt::format("level_{}", percent).c_str(), level_of(share));

@@ -152,6 +152,8 @@ std::string figure_of_sky_map(const SkyMap& map, const std::string& title,
            fmt::format("best: zenith {:.2f} deg, azimuth {:.2f} deg; {}, {}", map.zenith / degree,
                        map.azimuth / degree, words_of_area(map, 0.5), words_of_area(map, 0.9)),
            12.5, Anchor::start, grey);
+  if (map.errors_are_wider)
+    svg.text({left, 70}, "of this minimum alone: the fit's errors are wider", 12.5, Anchor::start, "#c0392b");
   draw_pixels(svg, panel, map);
   draw_contours(svg, panel, map);
   draw_cross(svg, panel.at({0, 0}));

@@ -1,9 +1,17 @@
 #include "reco/ice_fit/held_out_runs.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
+#include <set>
 
 namespace floe {
+
+int flasher_count(const FlasherData& data) {
+  std::set<ModuleId> flashers;
+  for (const RunData& run : data.runs) flashers.insert(run.run.module);
+  return static_cast<int>(flashers.size());
+}
 
 HeldOutRuns::HeldOutRuns(const FlasherData& data, const Detector& detector, int folds)
     : folds_(folds), fold_of_run_(data.runs.size()) {
@@ -12,8 +20,11 @@ HeldOutRuns::HeldOutRuns(const FlasherData& data, const Detector& detector, int 
   std::stable_sort(by_depth.begin(), by_depth.end(), [&](std::size_t a, std::size_t b) {
     return flasher_depth(data.runs[a], detector) < flasher_depth(data.runs[b], detector);
   });
-  for (std::size_t i = 0; i < by_depth.size(); ++i)
-    fold_of_run_[by_depth[i]] = static_cast<int>(i % static_cast<std::size_t>(folds));
+  std::map<ModuleId, int> fold_of;
+  for (const std::size_t r : by_depth) {
+    const int next = static_cast<int>(fold_of.size()) % folds;
+    fold_of_run_[r] = fold_of.try_emplace(data.runs[r].run.module, next).first->second;
+  }
 }
 
 FlasherData HeldOutRuns::rest(const FlasherData& data, int fold) const {

@@ -8,11 +8,14 @@
 
 namespace floe {
 
+// Modules that flash in these runs: several runs may be of one.
+int flasher_count(const FlasherData& data);
+
 // Dealt out by the depth of their flashers: ice is made of layers, and a run can only be told by what others
-// say of its own depths.
+// say of its own depths. Runs of one flasher stay together.
 class HeldOutRuns {
  public:
-  // 1 to the number of runs are held out at a time, in so many folds.
+  // `folds`: 1 to the number of flashers; all but the last few have as many.
   HeldOutRuns(const FlasherData& data, const Detector& detector, int folds);
 
   int folds() const { return folds_; }

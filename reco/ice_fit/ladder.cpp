@@ -130,9 +130,9 @@ Ladder::Gap Ladder::gap(std::size_t rung) const {
 Ladder climb_ladder(const Model& base, const FlasherData& data, const LadderOptions& options,
                     const Progress& progress) {
   if (data.runs.size() < 2) throw UsageError("a ladder holds runs out: it needs at least two flasher runs");
-  if (options.folds < 2 || options.folds > static_cast<int>(data.runs.size()))
-    throw UsageError(
-        fmt::format("found {} folds; expected 2 to {}, the number of runs", options.folds, data.runs.size()));
+  if (options.folds < 2 || options.folds > flasher_count(data))
+    throw UsageError(fmt::format("found {} folds; expected 2 to {}, the number of flashers", options.folds,
+                                 flasher_count(data)));
   return Climb(base, data, options, progress).run();
 }
 

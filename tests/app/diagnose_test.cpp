@@ -79,8 +79,8 @@ TEST_F(Diagnose, IsPutToTheTestByBlindTrials) {
   write_bytes(folder_.path() / "runs.toml",
               "[defaults]\nphotons = 1e8\n[[run]]\nmodule = [36, 20]\n[[run]]\nmodule = [45, 40]\n");
   const std::string command =
-      "blind-trials runs.toml --trials 1 --nothing 2 --least 8 --most 15 --seed 3 --full-nothing 1 --rows "
-      "rows.jsonl --json ";
+      "blind-trials runs.toml --trials 1 --nothing 2 --least 8 --most 15 --seed 3 --light 4 --full-nothing 1 "
+      "--sealed sealed.json --rows rows.jsonl --json ";
   const Outcome outcome = floe(command + "trials.json");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("Right name or group: "), std::string::npos);
@@ -97,6 +97,10 @@ TEST_F(Diagnose, IsPutToTheTestByBlindTrials) {
     ++hidden, right += trial["right"].get<bool>();
   }
   EXPECT_GE(hidden, 4);
+  const Json sealed = Json::parse(text_of("sealed.json"));
+  ASSERT_EQ(sealed["trials"].size(), found["trials"].size());
+  for (std::size_t i = 0; i < sealed["trials"].size(); ++i)
+    EXPECT_EQ(sealed["trials"][i], found["trials"][i]["hidden"]);
   // Whole diagnoses, of nothing here: those of effects take longer.
   ASSERT_EQ(found["full"].size(), 1u);
   EXPECT_TRUE(found["full"][0]["verdict"].empty()) << found["full"].dump();
@@ -115,6 +119,25 @@ TEST_F(Diagnose, IsPutToTheTestByBlindTrials) {
   EXPECT_EQ(again["full"], found["full"]);
   expect_error(floe(command + "other.json --alpha 0.02"), 2,
                "rows.jsonl: found rows of a run with alpha 0.01");
+}
+
+// Exit code 4 writes --json with the reason, and nothing else.
+TEST_F(Diagnose, SaysInJsonWhyThereIsNoResult) {
+  write_bytes(folder_.path() / "dark.hits", "FLASHER 36 20 photons=1000 oversize=16\n");
+  const Outcome outcome = floe("diagnose dark.hits -o found --quiet --json copy.json");
+  EXPECT_EQ(outcome.code, 4) << outcome.err;
+  const Json why = Json::parse(text_of("copy.json"));
+  EXPECT_EQ(why["status"], "no_result");
+  EXPECT_NE(outcome.err.find(why["reason"].get<std::string>()), std::string::npos) << outcome.err;
+  EXPECT_EQ(files_in(folder_.path()).size(), 2u);
+}
+
+// Simulations are as wide as the data unless they are told not to be.
+TEST_F(Diagnose, SimulatesModulesAsWideAsTheDatas) {
+  write_bytes(folder_.path() / "runs.hits",
+              "FLASHER 36 20 photons=1000 oversize=16\nHIT 36 21 100 405 1.5 0.2 1.5 0.2\nFLASHER 45 40 photons=1000 oversize=5\n"
+              "HIT 45 41 100 405 1.5 0.2 1.5 0.2\n");
+  expect_error(floe("diagnose runs.hits -o found"), 3, "simulated with oversize 5, a run before it with 16");
 }
 
 TEST_F(Diagnose, SaysWhatIsWrongWithWhatItIsGiven) {

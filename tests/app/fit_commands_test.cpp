@@ -45,6 +45,19 @@ void expect_covariance(const Json& fit) {
   }
 }
 
+// What --profile and --skymap add.
+void expect_profile_and_map(const Json& fit) {
+  for (const char* key : {"x", "y", "z", "time_ns", "zenith_deg", "azimuth_deg", "energy_gev"}) {
+    const Json& interval = fit["profile"][key];
+    EXPECT_LT(interval[0].get<double>(), fit[key].get<double>()) << key;
+    EXPECT_GT(interval[1].get<double>(), fit[key].get<double>()) << key;
+  }
+  const double half = fit["sky_map"]["area_50_deg2"], most = fit["sky_map"]["area_90_deg2"];
+  EXPECT_GT(half, 0);
+  EXPECT_GT(most, half);
+  EXPECT_EQ(fit["sky_map"]["errors_are_wider"], fit["errors_beyond_likelihood"]);
+}
+
 // Within five of its own standard errors.
 void expect_near_truth(const Json& fit, const char* key, std::size_t index, double truth) {
   const double error = std::sqrt(fit["covariance"][index][index].get<double>());
@@ -54,7 +67,10 @@ void expect_near_truth(const Json& fit, const char* key, std::size_t index, doub
 TEST(Reconstruct, FindsTheSimulatedCascadeAndSaysSoInJson) {
   const TemporaryFolder folder;
   simulate(folder, "300");
-  const Outcome outcome = run_floe(folder.path(), "reconstruct event.h5 --effort 0.05 --json fit.json");
+  const Outcome outcome = run_floe(
+      folder.path(),
+      "reconstruct event.h5 --effort 0.05 --json fit.json --profile --skymap map.h5 --skymap-picture "
+      "map.svg");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
   const Json event = json_in(folder, "fit.json")["events"].at(0);
@@ -71,6 +87,12 @@ TEST(Reconstruct, FindsTheSimulatedCascadeAndSaysSoInJson) {
   expect_near_truth(fit, "azimuth_deg", 5, 130);
   expect_near_truth(fit, "energy_gev", 6, 300);
   for (const char* key : {"neg_llh", "ndof", "p_value"}) EXPECT_TRUE(fit[key].is_number()) << key;
+  const double of_simulations = fit["simulation_errors"]["x"];
+  EXPECT_GT(of_simulations, 0);
+  EXPECT_LT(of_simulations, std::sqrt(fit["covariance"][0][0].get<double>()));
+  expect_profile_and_map(fit);
+  EXPECT_GT(bytes_of(folder.path() / "map.h5").size(), 1000u);
+  EXPECT_NE(bytes_of(folder.path() / "map.svg").find("90%"), std::string::npos);
 }
 
 TEST(Reconstruct, DoesNotDependOnThreads) {

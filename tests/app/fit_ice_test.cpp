@@ -136,9 +136,9 @@ TEST_F(FitIce, LeavesOutWhatCannotBeRightAndFitsTheRest) {
   for (std::string line; std::getline(lines, line);)
     if (line.find("HIT 36 21 ") == line.npos) spoiled += line + "\n";
   // A run without light, one of another colour, and a measured one with a receiver that is far too bright.
-  spoiled += "FLASHER 50 30 photons=1e8\n";
-  spoiled += "FLASHER 51 30 wavelength_nm=340 photons=1e8\nHIT 51 31 200 340 1.5 0.2 1.5 0.2\n";
-  spoiled += "FLASHER 26 30 photons=1e8\n";
+  spoiled += "FLASHER 50 30 photons=1e8 oversize=16\n";
+  spoiled += "FLASHER 51 30 wavelength_nm=340 photons=1e8 oversize=16\nHIT 51 31 200 340 1.5 0.2 1.5 0.2\n";
+  spoiled += "FLASHER 26 30 photons=1e8 oversize=16\n";
   for (int i = 0; i < 2000; ++i) spoiled += "HIT 26 31 120 405 1.5 0.2 1.5 0.2\n";
   for (int i = 0; i < 40; ++i) spoiled += "HIT 26 33 330 405 1.5 0.2 1.5 0.2\n";
   write("spoiled.hits", spoiled);

@@ -153,6 +153,7 @@ TEST(CascadeFit, CallsATrackATrack) {
   options.effort = 0.2;
   const CascadeFit fit = fit_cascade(light, data, options);
   EXPECT_TRUE(fit.status == FitStatus::track_like || fit.status == FitStatus::no_convergence) << fit.reason;
+  EXPECT_NE(fit.reason.find("looks like a track"), std::string::npos) << fit.reason;
 }
 
 }  // namespace

@@ -44,6 +44,18 @@ TEST(HeldOutRuns, AreSpreadOverDepth) {
   EXPECT_TRUE(held_out.holds(3, 2) && held_out.holds(4, 2));
 }
 
+// Two runs of one flasher see the same ice: neither may tell of the other.
+TEST(HeldOutRuns, RunsOfOneFlasherStayTogether) {
+  Runs runs({0, -50, -100});
+  runs.data.runs.push_back(runs.data.runs[1]);
+  EXPECT_EQ(flasher_count(runs.data), 3);
+  const HeldOutRuns held_out(runs.data, runs.detector, 3);
+  for (int fold = 0; fold < 3; ++fold) {
+    EXPECT_EQ(held_out.holds(1, fold), held_out.holds(3, fold));
+    EXPECT_EQ(held_out.rest(runs.data, fold).runs.size(), held_out.holds(1, fold) ? 2u : 3u);
+  }
+}
+
 TEST(HeldOutRuns, OneByOneOrAllTogether) {
   const Runs runs({0, -50, -100});
   const HeldOutRuns one_by_one(runs.data, runs.detector, 3);
