@@ -135,7 +135,8 @@ TEST_F(Diagnose, SaysInJsonWhyThereIsNoResult) {
 // Simulations are as wide as the data unless they are told not to be.
 TEST_F(Diagnose, SimulatesModulesAsWideAsTheDatas) {
   write_bytes(folder_.path() / "runs.hits",
-              "FLASHER 36 20 photons=1000 oversize=16\nHIT 36 21 100 405 1.5 0.2 1.5 0.2\nFLASHER 45 40 photons=1000 oversize=5\n"
+              "FLASHER 36 20 photons=1000 oversize=16\nHIT 36 21 100 405 1.5 0.2 1.5 0.2\nFLASHER 45 40 "
+              "photons=1000 oversize=5\n"
               "HIT 45 41 100 405 1.5 0.2 1.5 0.2\n");
   expect_error(floe("diagnose runs.hits -o found"), 3, "simulated with oversize 5, a run before it with 16");
 }
