@@ -15,6 +15,9 @@ target_compile_options(floe_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow 
 if(FLOE_SANITIZE)
   target_compile_options(floe_options INTERFACE -fsanitize=${FLOE_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(floe_options INTERFACE -fsanitize=${FLOE_SANITIZE})
+  # Eigen takes the sanitizer's malloc for less aligned than it is, and would free what a Ceres built without
+  # sanitizers has allocated in a way of its own.
+  target_compile_definitions(floe_options INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
 
 # Files of a target compiled together, so many at a time: headers are read once for all of them. Names in

@@ -39,6 +39,9 @@ IceFit EffectFits::fit_to(const FlasherData& runs, const std::vector<IceParamete
 IceFit EffectFits::fit_rivals(const std::vector<IceParameter>& parameters, const Settled& settled) const {
   IceFitOptions asked = options(rounds_of_rivals);
   asked.settled = settled;
+  asked.first_light = light_of_first_round;
+  asked.pair_light = light_of_pairs;
+  asked.least_pair_hits = enough_pair_hits;
   asked.light.least_hits =
       std::max(asked.light.least_hits, std::min(hits_of_rivals, light_of_rivals * brightest_run(data_)));
   return fit_ice(base_, data_, parameters, asked, stages_.part());

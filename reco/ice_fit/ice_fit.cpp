@@ -78,11 +78,8 @@ class Fit {
   }
 
  private:
-  // Before the round that comes: slopes gather from the second one on.
-  bool is_settled() const {
-    constexpr int with_gathered_slopes = 3;
-    return options_.settled && round_ > with_gathered_slopes && options_.settled(fit_);
-  }
+  // Before the round that comes. The first may have been far from the data.
+  bool is_settled() const { return options_.settled && round_ > 2 && options_.settled(fit_); }
 
   std::size_t count() const { return fit_.parameters.size(); }
   Model model() const { return with_parameters(base_, fit_.parameters, fit_.numbers); }

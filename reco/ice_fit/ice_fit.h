@@ -31,8 +31,7 @@ struct IceFitOptions : RunSettings {
   // Of the first round, in units of a later one's: it only leads near to where the others go on.
   double first_light = 1;
   int most_rounds = 6;
-  // Asked about the fit so far, once slopes of two rounds are gathered: whether what it was wanted for is
-  // settled. Empty: it goes on until it has converged.
+  // Asked about the fit so far, from the second round on: whether what it was wanted for is settled. Empty: it goes on until it has converged.
   std::function<bool(const IceFit&)> settled;
   bool judged = true;  // by fresh simulations at the end; without, IceFit::runs and neg_llh are missing
 };
