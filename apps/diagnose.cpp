@@ -41,13 +41,20 @@ Json separation_json(const Separation& separation) {
           {"sentence", separation.sentence}};
 }
 
-Json effect_json(const NamedEffect& effect) {
-  Json parameters = Json::object();
-  for (std::size_t i = 0; i < effect.values.size(); ++i) {
-    const std::string& name = effect.parameters[i].name;
-    parameters[name.substr(name.find('.') + 1)] = {
-        {"value", effect.values[i]}, {"error", effect.errors[i]}, {"unit", effect.parameters[i].unit}};
+// "factor" of "absorption-scale.factor": value, error, unit.
+Json values_json(const std::vector<IceParameter>& parameters, const std::vector<double>& values,
+                 const std::vector<double>& errors) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::string& name = parameters[i].name;
+    json[name.substr(name.find('.') + 1)] = {
+        {"value", values[i]}, {"error", errors[i]}, {"unit", parameters[i].unit}};
   }
+  return json;
+}
+
+Json effect_json(const NamedEffect& effect) {
+  Json parameters = values_json(effect.parameters, effect.values, effect.errors);
   if (effect.mean)
     parameters[effect.mean->name] = {
         {"value", effect.mean->value}, {"error", effect.mean->error}, {"unit", ""}};
@@ -95,7 +102,7 @@ Json step_json(const DiagnosisStep& step) {
   for (const Trial& trial : step.trials) {
     json["fits"].push_back({{"effect", trial.suspect.effect},
                             {"place", trial.suspect.place},
-                            {"parameters", trial.parameters.size()},
+                            {"parameters", values_json(trial.parameters, trial.values, trial.errors)},
                             {"neg_llh", trial.neg_llh},
                             {"chi_square", trial.chi_square}});
     if (trial.lost)

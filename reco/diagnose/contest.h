@@ -20,6 +20,7 @@ struct Duel {
 struct Trial {
   Suspect suspect;
   std::vector<IceParameter> parameters;  // of the suspect alone
+  std::vector<double> values, errors;    // of the parameters, where its fit ended
   double neg_llh = 0;                    // of all runs, with the same random numbers as its rivals'
   double chi_square = 0;                 // of its parameters about the model without it
   std::optional<Duel> lost;              // to a rival that fits nearly as well

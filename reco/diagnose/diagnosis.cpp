@@ -237,6 +237,11 @@ class Diagnoser {
                               [&](const IceFit& fit) { return chi_square(fit) < hopeless_share * best; });
     trial.neg_llh = neg_llh_of_all(with_parameters(base_, candidate.fit.parameters, candidate.fit.numbers));
     trial.chi_square = chi_square(candidate.fit);
+    for (std::size_t i = 0; i < trial.parameters.size(); ++i) {
+      const std::size_t at = accepted_.parameter_count() + i;
+      trial.values.push_back(candidate.fit.value(at));
+      trial.errors.push_back(candidate.fit.error(at));
+    }
     return candidate;
   }
 
@@ -365,13 +370,9 @@ class Diagnoser {
     std::set<std::string> tested;
     for (const EffectScore& effect : result_.steps.front().scores.effects)
       tested.insert(effect.best.suspect.effect);
-    for (const Effect* effect : effects()) {
-      if (tested.contains(effect->name())) continue;
-      const bool unseen = effect->name() == "hole-ice" && options_.oversize > 1;
-      result_.not_tested[effect->name()] =
-          unseen ? "modules that are simulated wider do not see it; --oversize 1 does"
-                 : "it changes no light of these runs that their brightness and time zero do not take up";
-    }
+    for (const Effect* effect : effects())
+      if (!tested.contains(effect->name()))
+        result_.not_tested[effect->name()] = why_no_suspect(effect->name(), base_, options_.oversize);
   }
 
   // A rival that a joint fit needed as well is no alternative once it has been named itself.

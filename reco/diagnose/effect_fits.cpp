@@ -8,10 +8,10 @@ namespace floe {
 
 namespace {
 
-constexpr int rounds_of_fits = 4, rounds_of_layers = 5, rounds_of_folds = 3, rounds_of_rivals = 5;
+constexpr int rounds_of_fits = 4, rounds_of_layers = 5, rounds_of_rivals = 5;
 constexpr double light_of_pairs = 0.5;  // of fits, in units of a run's own simulation
 constexpr double light_of_first_round = 0.4;
-constexpr double light_of_folds = 2.5;  // in units of other fits'
+constexpr double light_of_folds = 4;  // in units of other fits'
 // Rivals are alike. Of each run, at least so many hits, or as many as these times the brightest run's: with
 // dim data their own noise decides.
 constexpr double hits_of_rivals = 6e4, light_of_rivals = 3;
@@ -25,23 +25,25 @@ double brightest_run(const FlasherData& data) {
 }  // namespace
 
 IceFit EffectFits::fit(const std::vector<IceParameter>& parameters, const Settled& settled) const {
-  return fit(data_, parameters, rounds_of_fits, 1, settled);
+  return fit(parameters, rounds_of_fits, settled);
 }
 
 IceFit EffectFits::fit_layers(const std::vector<IceParameter>& parameters) const {
-  return fit(data_, parameters, rounds_of_layers, 1);
+  return fit(parameters, rounds_of_layers, {});
 }
 
-IceFit EffectFits::fit_to(const FlasherData& runs, const std::vector<IceParameter>& parameters) const {
-  return fit(runs, parameters, rounds_of_folds, light_of_folds);
+// The first round and slopes from pairs have enough light.
+std::vector<std::optional<std::vector<double>>> EffectFits::fit_without(
+    const std::vector<std::vector<char>>& left_out, const std::vector<IceParameter>& parameters) const {
+  IceFitOptions asked = options(1);
+  asked.light.light *= light_of_folds, asked.light.least_hits *= light_of_folds;
+  asked.pair_light /= light_of_folds, asked.first_light /= light_of_folds;
+  return fit_ice_without(base_, data_, parameters, left_out, asked, stages_.part());
 }
 
 IceFit EffectFits::fit_rivals(const std::vector<IceParameter>& parameters, const Settled& settled) const {
   IceFitOptions asked = options(rounds_of_rivals);
   asked.settled = settled;
-  asked.first_light = light_of_first_round;
-  asked.pair_light = light_of_pairs;
-  asked.least_pair_hits = enough_pair_hits;
   asked.light.least_hits =
       std::max(asked.light.least_hits, std::min(hits_of_rivals, light_of_rivals * brightest_run(data_)));
   return fit_ice(base_, data_, parameters, asked, stages_.part());
@@ -52,19 +54,17 @@ IceFitOptions EffectFits::options(int rounds) const {
   static_cast<RunSettings&>(asked) = settings_;
   asked.most_rounds = rounds;
   asked.judged = false;  // all models are judged by the same light, elsewhere
+  asked.pair_light = light_of_pairs;
+  asked.least_pair_hits = enough_pair_hits;
+  asked.first_light = light_of_first_round;
   return asked;
 }
 
-// `light`: in units of other fits'; the first round and slopes from pairs have enough.
-IceFit EffectFits::fit(const FlasherData& runs, const std::vector<IceParameter>& parameters, int rounds,
-                       double light, const Settled& settled) const {
+IceFit EffectFits::fit(const std::vector<IceParameter>& parameters, int rounds,
+                       const Settled& settled) const {
   IceFitOptions asked = options(rounds);
-  asked.light.light *= light, asked.light.least_hits *= light;
-  asked.pair_light = light_of_pairs / light;
-  asked.least_pair_hits = enough_pair_hits;
-  asked.first_light = light_of_first_round / light;
   asked.settled = settled;
-  return fit_ice(base_, runs, parameters, asked, stages_.part());
+  return fit_ice(base_, data_, parameters, asked, stages_.part());
 }
 
 }  // namespace floe

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "propagation/model.h"
@@ -25,16 +26,16 @@ class EffectFits {
   IceFit fit(const std::vector<IceParameter>& parameters, const Settled& settled = {}) const;
   // Of layers, which follow one another slowly.
   IceFit fit_layers(const std::vector<IceParameter>& parameters) const;
-  // To these runs only; with more light, since what they tell of the others is extrapolated, and the noise of
-  // simulations with it.
-  IceFit fit_to(const FlasherData& runs, const std::vector<IceParameter>& parameters) const;
+  // Numbers of fits that each leave runs out (fit_ice_without); with more light, since what the others tell
+  // of these is extrapolated, and the noise of simulations with it.
+  std::vector<std::optional<std::vector<double>>> fit_without(
+      const std::vector<std::vector<char>>& left_out, const std::vector<IceParameter>& parameters) const;
   // Of rivals: where they are alike, noise of slopes and simulations decides soonest.
   IceFit fit_rivals(const std::vector<IceParameter>& parameters, const Settled& settled) const;
 
  private:
   IceFitOptions options(int rounds) const;
-  IceFit fit(const FlasherData& runs, const std::vector<IceParameter>& parameters, int rounds, double light,
-             const Settled& settled = {}) const;
+  IceFit fit(const std::vector<IceParameter>& parameters, int rounds, const Settled& settled) const;
 
   const Model& base_;
   const FlasherData& data_;

@@ -35,13 +35,10 @@ ExpectedFit right_fit(const std::vector<ModelJudge::Fit>& fits) {
 }
 
 // What only the runs that are held out tell of is not known: a prior, as wide as a large change, leaves it
-// where it changes nothing, and the place of a band where the fit to all runs has it. Layers begin where
-// their own prior has them.
+// where it changes nothing, and the place of a band where the fit to all runs has it. Layers have priors of
+// their own.
 void expect_no_change(IceParameter& p, const Model& base) {
-  if (!p.family.empty() || p.prior > 0) {
-    if (p.logarithmic) p.start = p.prior_centre.value_or(p.start);
-    return;
-  }
+  if (!p.family.empty() || p.prior > 0) return;
   p.prior = p.scale;
   p.prior_centre = is_place_of_band(p) ? p.start : null_number(p, base);
 }
@@ -65,32 +62,34 @@ HeldOutGaps::HeldOutGaps(const Model& base, const FlasherData& data, const First
 }
 
 Gaps HeldOutGaps::of(const AcceptedEffects& effects, Stages& stages, double from, double to) {
+  stages.begin(from, to, "holding runs out");
   const int folds = held_out_.folds();
+  const std::vector<Model> models =
+      folds == 1 ? std::vector<Model>{effects.model()} : fitted_without(effects);
   Gaps gaps(data_.runs.size());
-  for (int fold = 0; fold < folds; ++fold) {
-    const double length = (to - from) / folds;
-    stages.begin(from + length * fold, from + length * (fold + 1), "holding runs out");
-    const Model model = folds == 1 ? effects.model() : fitted_without(fold, effects);
+  for (int fold = 0; fold < folds; ++fold)
     for (std::size_t r = 0; r < gaps.size(); ++r)
-      if (held_out_.holds(r, fold)) gaps[r] = gap(judge_.judge(model, r));
-  }
+      if (held_out_.holds(r, fold)) gaps[r] = gap(judge_.judge(models[static_cast<std::size_t>(fold)], r));
   return gaps;
 }
 
 // The base where the other runs lead to no ice that can be: they tell nothing of this then.
-Model HeldOutGaps::fitted_without(int fold, const AcceptedEffects& effects) {
+std::vector<Model> HeldOutGaps::fitted_without(const AcceptedEffects& effects) {
   std::vector<IceParameter> parameters = effects.parameters();
   for (IceParameter& p : parameters) expect_no_change(p, base_);
-  try {
-    const IceFit blind = fits_.fit_to(held_out_.rest(data_, fold), parameters);
-    return with_parameters(base_, blind.parameters, blind.numbers);
-  } catch (const InputError&) {
+  std::vector<Model> models;
+  for (const auto& numbers : fits_.fit_without(held_out_.left_out(), parameters)) {
+    if (numbers) {
+      models.push_back(with_parameters(base_, parameters, *numbers));
+      continue;
+    }
+    models.push_back(base_);
     const std::string remark = fmt::format(
         "Without the runs of group {} of {} the others fit to no physical ice: the base judges these runs",
-        fold + 1, held_out_.folds());
+        models.size(), held_out_.folds());
     if (std::ranges::find(remarks_, remark) == remarks_.end()) remarks_.push_back(remark);
-    return base_;
   }
+  return models;
 }
 
 double HeldOutGaps::p_of_base(double allowed) const {

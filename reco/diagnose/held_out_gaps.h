@@ -51,7 +51,8 @@ class HeldOutGaps {
 
  private:
   std::vector<ModelJudge::Fit> fits_of(const Model& model) const;
-  Model fitted_without(int fold, const AcceptedEffects& effects);
+  // By group, a model that was fitted to the runs of the others.
+  std::vector<Model> fitted_without(const AcceptedEffects& effects);
 
   const Model& base_;
   const FlasherData& data_;

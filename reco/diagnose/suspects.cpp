@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "data/base/error.h"
@@ -37,16 +38,22 @@ bool is_plain(const std::string& effect) {
   return std::find(others.begin(), others.end(), effect) == others.end();
 }
 
-// Whether it changes anything: the scattering length of hole ice does not where there is none.
-bool matters(const Model& model, const IceParameter& parameter) {
+// Why a parameter changes nothing, or nothing if it does change something: the scattering length of hole ice
+// does not where there is none.
+std::optional<std::string> why_idle(const Model& model, const IceParameter& parameter) {
   const double step =
       parameter.scale * (parameter.start + 0.1 * parameter.scale > parameter.high ? -0.1 : 0.1);
   try {
     const Model moved = with_parameters(model, {parameter}, {parameter.start + step});
-    return difference(model, moved) != ModelDifference{};
-  } catch (const std::exception&) {
-    return false;  // it makes no sense in this model
+    if (difference(model, moved) != ModelDifference{}) return std::nullopt;
+    return "it changes nothing in this model";
+  } catch (const std::exception& error) {
+    return error.what();  // it makes no sense in this model
   }
+}
+
+bool is_hidden_by_width(const std::string& effect, double oversize) {
+  return effect == "hole-ice" && oversize > 1;
 }
 
 // A parameter of an effect at a place that says how much it changes.
@@ -131,10 +138,10 @@ SuspectPlan plan_suspects(const Model& model, const FlasherDepths& flashers, std
                           double oversize) {
   SuspectPlan plan;
   for (const Effect* effect : effects()) {
-    if (!is_plain(effect->name()) || (effect->name() == "hole-ice" && oversize > 1)) continue;
+    if (!is_plain(effect->name()) || is_hidden_by_width(effect->name(), oversize)) continue;
     for (const EffectParameter& parameter : effect->parameters(parts_of(model))) {
       IceParameter p = effect_parameter(effect->name() + "." + parameter.name, model);
-      if (matters(model, p)) plan.parameters.push_back(std::move(p));
+      if (!why_idle(model, p)) plan.parameters.push_back(std::move(p));
     }
   }
   // Ice of other ages follows the bed below in its own way: it has its slope at each depth (arXiv:1301.5361).
@@ -150,6 +157,18 @@ SuspectPlan plan_suspects(const Model& model, const FlasherDepths& flashers, std
   for (const LayerFamily family : {LayerFamily::absorption, LayerFamily::scattering})
     for (IceParameter& p : layer_parameters(family, range)) plan.parameters.push_back(std::move(p));
   return plan;
+}
+
+std::string why_no_suspect(const std::string& effect, const Model& model, double oversize) {
+  if (is_hidden_by_width(effect, oversize))
+    return "modules that are simulated wider do not see it; --oversize 1 does";
+  if (effect == "grains") return "the size of grains is the strength of birefringence by another name";
+  if (effect == "overall-efficiency" || effect == "flasher-brightness")
+    return "the brightness of each run takes it up";
+  if (is_plain(effect))
+    for (const EffectParameter& parameter : find_effect(effect).parameters(parts_of(model)))
+      if (auto why = why_idle(model, effect_parameter(effect + "." + parameter.name, model))) return *why;
+  return "it changes no light of these runs that their brightness and time zero do not take up";
 }
 
 std::vector<Suspect> suspects_of(const Survey& survey, const SuspectPlan& plan) {
@@ -211,7 +230,7 @@ std::vector<IceParameter> parameters_from(const Suspect& suspect, const Eigen::V
     Eigen::Index i = 0;
     for (const EffectParameter& parameter : find_effect(suspect.effect).parameters(parts_of(base))) {
       IceParameter p = effect_parameter(suspect.effect + "." + parameter.name, base);
-      if (!matters(base, p)) continue;
+      if (why_idle(base, p)) continue;
       p.start = within(p, p.start + amplitudes(i++));
       parameters.push_back(std::move(p));
     }

@@ -55,6 +55,9 @@ DepthRange slopes_of(const FlasherDepths& flashers, std::size_t runs);
 
 std::vector<Suspect> suspects_of(const Survey& survey, const SuspectPlan& plan);
 
+// Of an effect of the catalogue that is none of the suspects, the reason.
+std::string why_no_suspect(const std::string& effect, const Model& model, double oversize);
+
 // Parameters for a fit of this suspect on a base model. They begin where the survey's amplitudes suggest, or,
 // where that would be no physical ice, part of the way there. Throws InputError where no part of it is.
 std::vector<IceParameter> fit_parameters(const Suspect& suspect, const Eigen::VectorXd& amplitudes,

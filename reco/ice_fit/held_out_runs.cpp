@@ -27,6 +27,14 @@ HeldOutRuns::HeldOutRuns(const FlasherData& data, const Detector& detector, int 
   }
 }
 
+std::vector<std::vector<char>> HeldOutRuns::left_out() const {
+  std::vector<std::vector<char>> left_out(static_cast<std::size_t>(folds_),
+                                          std::vector<char>(fold_of_run_.size()));
+  for (std::size_t r = 0; r < fold_of_run_.size(); ++r)
+    left_out[static_cast<std::size_t>(fold_of_run_[r])][r] = 1;
+  return left_out;
+}
+
 FlasherData HeldOutRuns::rest(const FlasherData& data, int fold) const {
   FlasherData rest;
   for (std::size_t r = 0; r < data.runs.size(); ++r)

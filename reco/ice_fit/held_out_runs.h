@@ -20,6 +20,8 @@ class HeldOutRuns {
 
   int folds() const { return folds_; }
   bool holds(std::size_t run, int fold) const { return fold_of_run_[run] == fold; }
+  // By fold, by run: whether it is held out.
+  std::vector<std::vector<char>> left_out() const;
   // The other folds' runs of the same data.
   FlasherData rest(const FlasherData& data, int fold) const;
 

@@ -6,14 +6,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
 
 #include "data/base/error.h"
 #include "reco/ice_fit/ice_point.h"
 #include "reco/ice_fit/ice_solution.h"
 #include "reco/ice_fit/receiver_efficiencies.h"
-#include "reco/ice_fit/run_light.h"
-#include "reco/ice_fit/run_likelihood.h"
-#include "reco/ice_fit/run_plan.h"
+#include "reco/ice_fit/run_scores.h"
 #include "reco/ice_fit/score_system.h"
 
 namespace floe {
@@ -24,19 +25,6 @@ constexpr double longest_step = 0.7;  // of a round, in the parameter's scale
 // Two steps so small, in their errors, are the last: root mean square and largest. New simulations in every
 // round keep them from getting much smaller; one step alone may be small by chance, on its way.
 constexpr double settled = 0.8, settled_most = 2.5;
-// Far from the streams of simulated data.
-constexpr std::uint64_t first_stream = std::uint64_t{1} << 40;
-constexpr std::uint64_t streams_a_run = 1 << 10, streams_a_round = 1 << 20;
-
-// What is known of a run between rounds.
-struct RunState {
-  double hits_per_photon = 0;  // simulated, of used receivers
-  double brightness = 0;       // N of all flashes together; 0: not yet known
-  double time_zero = 0;        // [ns]
-  RunBins bins;
-  RunLight seen;  // of the rounds from the second on, in these bins
-};
-
 void check(const IceFitOptions& options) {
   check(static_cast<const RunSettings&>(options));
   if (!(options.smoothness > 0 && options.amplitude > 0))
@@ -48,22 +36,24 @@ void check(const IceFitOptions& options) {
   if (options.most_rounds < 1) throw UsageError("a fit needs at least one round");
 }
 
-// Hits with the run's time zero.
-SimulatedRun simulate(const Model& model, const RunRequest& request, double time_zero) {
-  SimulatedRun run = simulate_run(model, request);
-  delay(run, time_zero);
-  return run;
+// Of the parameters alone.
+struct StepSize {
+  double mean = 0, furthest = 0;  // root mean square and largest, in their errors
+  bool is_small() const { return mean < settled && furthest < settled_most; }
+};
+StepSize size_of(const IceSolution& solution) {
+  const Eigen::Index count = solution.covariance.rows();
+  const Eigen::ArrayXd pulls =
+      solution.step.head(count).array().abs() / solution.covariance.diagonal().array().sqrt();
+  if (count == 0) return {};
+  return {std::sqrt(pulls.square().mean()), pulls.maxCoeff()};
 }
 
 class Fit {
  public:
   Fit(const Model& base, FlasherData data, const std::vector<IceParameter>& parameters,
       const IceFitOptions& options, const Progress& progress)
-      : base_(base),
-        data_(std::move(data)),
-        options_(options),
-        progress_(progress),
-        states_(data_.runs.size()) {
+      : base_(base), options_(options), progress_(progress), scores_(std::move(data), options) {
     fit_.parameters = parameters;
     for (const IceParameter& parameter : parameters) fit_.numbers.push_back(parameter.start);
   }
@@ -74,7 +64,30 @@ class Fit {
       one_round();
     fit_.rounds = round_ - 1;
     if (options_.judged) judge();
+    fit_.photons = scores_.propagated();
     return std::move(fit_);
+  }
+
+  std::vector<std::optional<std::vector<double>>> run_without(
+      const std::vector<std::vector<char>>& left_out) {
+    look_first();
+    round_ = 1;
+    one_round();
+    ++round_;
+    const IcePoint point = begin_round();
+    std::vector<ScoreSystem> of_runs(scores_.count(), empty_system());
+    for (std::size_t r = 0; r < of_runs.size(); ++r) {
+      report(r, "walking in the light of");
+      scores_.add(point, r, count(), {}, of_runs[r]);
+    }
+    std::vector<std::optional<std::vector<double>>> numbers;
+    for (const std::vector<char>& runs : left_out) {
+      ScoreSystem system = empty_system();
+      for (std::size_t r = 0; r < of_runs.size(); ++r)
+        if (!runs[r]) system += of_runs[r];
+      numbers.push_back(solved(std::move(system)));
+    }
+    return numbers;
   }
 
  private:
@@ -84,47 +97,41 @@ class Fit {
   std::size_t count() const { return fit_.parameters.size(); }
   Model model() const { return with_parameters(base_, fit_.parameters, fit_.numbers); }
 
-  RunRequest request(std::size_t r, std::uint64_t purpose, double photons) const {
-    return request_of(
-        data_.runs[r], options_, photons,
-        first_stream + static_cast<std::uint64_t>(round_) * streams_a_round + r * streams_a_run + purpose,
-        states_[r].brightness);
+  void look_first() {
+    scores_.look_first(model());
+    fit_.left_out = scores_.left_out();
   }
 
-  // How much light of each run is seen, in the starting model, and which receivers cannot be right.
-  void look_first() {
-    const FirstLook look = floe::look_first(
-        model(), [this](std::size_t r, double photons) { return request(r, 0, photons); }, data_);
-    fit_.photons += look.propagated;
-    fit_.left_out = data_.left_out;
-    for (std::size_t r = 0; r < states_.size(); ++r) {
-      states_[r].hits_per_photon = look.hits_per_photon[r];
-      states_[r].brightness = look.brightness[r];
+  IcePoint begin_round() {
+    IcePoint point(base_, fit_.parameters, fit_.numbers, scores_.wavelength());
+    scores_.begin_round(point.model());
+    return point;
+  }
+  ScoreSystem empty_system(int efficiencies = 0) const {
+    return ScoreSystem(static_cast<int>(count() + 2 * scores_.count()) + efficiencies);
+  }
+
+  // Where one step leads. What none of the runs tells goes all the way to its prior.
+  std::optional<std::vector<double>> solved(ScoreSystem system) const {
+    constexpr double any = std::numeric_limits<double>::infinity();
+    calibrate_information(groups(), system);
+    const IceSolution solution =
+        solve_ice(system, fit_.parameters, fit_.numbers, {options_.smoothness, options_.amplitude}, any);
+    try {
+      return stepped(solution.step);
+    } catch (const InputError&) {
+      return std::nullopt;
     }
   }
 
-  double photons_of(std::size_t r) const {
-    return photons_wanted(data_.runs[r], states_[r].hits_per_photon, options_.light);
-  }
-
-  RunBins bins_of(const Model& model, std::size_t r) {
-    const Scout scout = scout_run(model, request(r, 1, photons_of(r)), states_[r].time_zero);
-    fit_.photons += scout.simulated.propagated;
-    return floe::bins_of(scout, data_.runs[r], states_[r].brightness);
-  }
-
   void one_round() {
-    const IcePoint point(base_, fit_.parameters, fit_.numbers,
-                         data_.runs.front().run.wavelength);  // all have the same
-    const auto runs = states_.size();
-    // The first round may be far from the data; from the second one on, bins stay and slopes gather.
-    if (round_ <= 2)
-      for (std::size_t r = 0; r < runs; ++r) states_[r].bins = bins_of(point.model(), r);
-    const EfficiencyColumns efficiencies = efficiency_columns();
-    ScoreSystem system(static_cast<int>(count() + 2 * runs) + efficiencies.count());
-    for (std::size_t r = 0; r < runs; ++r) {
+    const IcePoint point = begin_round();
+    const EfficiencyColumns efficiencies =
+        scores_.efficiency_columns(static_cast<int>(count() + 2 * scores_.count()));
+    ScoreSystem system = empty_system(efficiencies.count());
+    for (std::size_t r = 0; r < scores_.count(); ++r) {
       report(r, "walking in the light of");
-      add_run_to(point, r, efficiencies, system);
+      scores_.add(point, r, count(), efficiencies, system);
     }
     calibrate_information(groups(), system);
     const ProfiledSystem profiled =
@@ -132,25 +139,11 @@ class Fit {
     const IceSolution solution = solve_ice(profiled.system, fit_.parameters, fit_.numbers,
                                            {options_.smoothness, options_.amplitude}, longest_step);
     note_efficiencies(efficiencies, profiled, solution.step);
-    double furthest = 0, squares = 0;
-    const double share = physical_share(solution.step);
-    const std::vector<double> before = fit_.numbers;
-    for (std::size_t p = 0; p < count(); ++p) {
-      const auto i = static_cast<Eigen::Index>(p);
-      fit_.numbers[p] += share * solution.step(i);
-      const double pull = std::abs(solution.step(i)) / std::sqrt(solution.covariance(i, i));
-      furthest = std::max(furthest, pull);
-      squares += pull * pull;
-    }
-    for (std::size_t r = 0; r < runs; ++r) {
-      const auto i = static_cast<Eigen::Index>(count() + 2 * r);
-      states_[r].brightness *= std::exp(solution.step(i));
-      states_[r].time_zero += solution.step(i + 1);
-    }
+    const std::vector<double> before = std::exchange(fit_.numbers, stepped(solution.step));
+    scores_.step_nuisances(solution.step, count());
     fit_.covariance = solution.covariance;
     fit_.light_errors = solution.light_errors;
-    const double mean = std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, count())));
-    const bool small = mean < settled && furthest < settled_most;
+    const bool small = size_of(solution).is_small();
     fit_.converged = small && small_before_;
     small_before_ = small;
     // Where they end differs by the noise of their simulations alone: the middle has less of it.
@@ -158,15 +151,15 @@ class Fit {
       for (std::size_t p = 0; p < count(); ++p) fit_.numbers[p] = (before[p] + fit_.numbers[p]) / 2;
   }
 
-  // How much of a step leads to ice that can be: crystals must not scatter more than their layer does.
-  double physical_share(const Eigen::VectorXd& step) const {
+  // As much of a step as leads to ice that can be: crystals must not scatter more than their layer does.
+  std::vector<double> stepped(const Eigen::VectorXd& step) const {
     constexpr double least = 1.0 / 64;
     for (double share = 1;; share /= 2) {
       std::vector<double> numbers = fit_.numbers;
       for (std::size_t p = 0; p < count(); ++p) numbers[p] += share * step(static_cast<Eigen::Index>(p));
       try {
         with_parameters(base_, fit_.parameters, numbers);
-        return share;
+        return numbers;
       } catch (const InputError&) {
         if (share <= least) throw;
       }
@@ -180,13 +173,6 @@ class Fit {
     return names;
   }
 
-  EfficiencyColumns efficiency_columns() const {
-    if (options_.efficiency_width == 0) return {};
-    std::vector<const RunBins*> bins;
-    for (const RunState& state : states_) bins.push_back(&state.bins);
-    return {bins, static_cast<int>(count() + 2 * states_.size())};
-  }
-
   void note_efficiencies(const EfficiencyColumns& columns, const ProfiledSystem& profiled,
                          const Eigen::VectorXd& step) {
     fit_.efficiencies.clear();
@@ -197,38 +183,6 @@ class Fit {
       const auto at = static_cast<Eigen::Index>(i);
       fit_.efficiencies.push_back({base_.detector->modules()[columns.modules()[i]].id,
                                    std::max(least, 1 + changes(at)), profiled.errors(at)});
-    }
-  }
-
-  void add_run_to(const IcePoint& point, std::size_t r, const EfficiencyColumns& efficiencies,
-                  ScoreSystem& system) {
-    const RunData& run = data_.runs[r];
-    RunState& state = states_[r];
-    const double photons = (round_ == 1 ? options_.first_light : 1) * photons_of(r);
-    const RunBins& bins = state.bins;
-    const RunRequest request = this->request(r, 2, photons);
-    const SimulatedRun simulated = simulate(point.model(), request, state.time_zero);
-    auto [light, propagated] =
-        point.light(request, simulated, bins, state.time_zero,
-                    {.light = options_.pair_light, .least_hits = options_.least_pair_hits});
-    fit_.photons += simulated.propagated + propagated;
-
-    const double hits = used_hits(simulated, run);
-    state.hits_per_photon = std::max(1.0, hits) / photons;
-    RunCounts counts;
-    counts.data = run.counts(bins);
-    counts.scale = state.brightness / light.photons;
-    counts.dispersion = dispersion(simulated);
-    counts.data_dispersion = (run.run.oversize > 1 ? counts.dispersion : 1) * run.charge_dispersion;
-    counts.model_error = options_.model_error;
-    RunColumns columns{static_cast<int>(count() + 2 * r), efficiencies.of_receivers(bins), {}};
-    if (efficiencies.count() > 0) columns.receiver_of_bin = bins.receiver_of_bin();
-    if (round_ <= 2) {
-      add_run(light, light, counts, columns, system);
-      state.seen = std::move(light);
-    } else {
-      add_run(light, state.seen, counts, columns, system);
-      for (int fold = 0; fold < 2; ++fold) state.seen.folds[fold] += light.folds[fold];
     }
   }
 
@@ -245,37 +199,26 @@ class Fit {
   // Fresh simulations say how well the result fits.
   void judge() {
     const Model model = with_efficiencies(this->model());
-    for (std::size_t r = 0; r < states_.size(); ++r) {
+    scores_.begin_judging();
+    for (std::size_t r = 0; r < scores_.count(); ++r) {
       report(r, "measuring the fit to");
-      const RunData& run = data_.runs[r];
-      const RunBins bins = bins_of(model, r);
-      const double photons = photons_of(r);
-      const SimulatedRun simulated = simulate(model, request(r, 2, photons), states_[r].time_zero);
-      fit_.photons += simulated.propagated;
-      // Its hits have the time zero already.
-      const RunMeasurement measured =
-          measure_run(simulated, photons, run, bins, {states_[r].brightness, 0}, options_.model_error);
-      const RunResult result{run.name, measured.nuisances.brightness / run.repeats,
-                             states_[r].time_zero + measured.nuisances.time_zero, measured.neg_llh,
-                             measured.bins};
-      fit_.neg_llh += result.neg_llh;
-      fit_.bins += result.bins;
-      fit_.runs.push_back(result);
+      fit_.runs.push_back(scores_.judge(model, r));
+      fit_.neg_llh += fit_.runs.back().neg_llh;
+      fit_.bins += fit_.runs.back().bins;
     }
   }
 
   void report(std::size_t r, const char* what) const {
     if (!progress_) return;
-    const double rounds = options_.most_rounds + 1, runs = static_cast<double>(states_.size());
+    const double rounds = options_.most_rounds + 1, runs = static_cast<double>(scores_.count());
     progress_((round_ - 1 + static_cast<double>(r) / runs) / rounds,
-              fmt::format("round {}: {} {}", round_, what, data_.runs[r].name));
+              fmt::format("round {}: {} {}", round_, what, scores_.name(r)));
   }
 
   const Model& base_;
-  FlasherData data_;
   const IceFitOptions& options_;
   const Progress& progress_;
-  std::vector<RunState> states_;
+  RunScores scores_;
   int round_ = 0;
   bool small_before_ = false;  // whether the step of the round before was
   IceFit fit_;
@@ -308,6 +251,16 @@ IceFit fit_ice(const Model& base, const FlasherData& data, const std::vector<Ice
   IceFit fit = Fit(base, data, parameters, options, progress).run();
   fit.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return fit;
+}
+
+std::vector<std::optional<std::vector<double>>> fit_ice_without(
+    const Model& base, const FlasherData& data, const std::vector<IceParameter>& parameters,
+    const std::vector<std::vector<char>>& left_out, IceFitOptions options, const Progress& progress) {
+  check(options);
+  if (options.efficiency_width > 0)
+    throw UsageError("fits that leave runs out know the receivers' efficiencies");
+  options.most_rounds = 2;
+  return Fit(base, data, parameters, options, progress).run_without(left_out);
 }
 
 }  // namespace floe

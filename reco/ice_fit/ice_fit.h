@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,7 +32,8 @@ struct IceFitOptions : RunSettings {
   // Of the first round, in units of a later one's: it only leads near to where the others go on.
   double first_light = 1;
   int most_rounds = 6;
-  // Asked about the fit so far, from the second round on: whether what it was wanted for is settled. Empty: it goes on until it has converged.
+  // Asked about the fit so far, from the second round on: whether what it was wanted for is settled. Empty:
+  // it goes on until it has converged.
   std::function<bool(const IceFit&)> settled;
   bool judged = true;  // by fresh simulations at the end; without, IceFit::runs and neg_llh are missing
 };
@@ -76,5 +78,13 @@ struct IceFit {
 // when no run has light to fit.
 IceFit fit_ice(const Model& base, const FlasherData& data, const std::vector<IceParameter>& parameters,
                const IceFitOptions& options, const Progress& progress = {});
+
+// The numbers of fits that each leave some of the runs out, all from one simulation of every run: after a
+// round of the fit to all of them, one Gauss-Newton step of the others' equations alone, of any length. To be
+// begun where a fit to all runs has ended. `left_out`: by fit, by run. None where the step leads to no
+// physical ice. Throws as fit_ice does, InputError where the first round's way leads to no physical ice.
+std::vector<std::optional<std::vector<double>>> fit_ice_without(
+    const Model& base, const FlasherData& data, const std::vector<IceParameter>& parameters,
+    const std::vector<std::vector<char>>& left_out, IceFitOptions options, const Progress& progress = {});
 
 }  // namespace floe

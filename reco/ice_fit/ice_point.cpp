@@ -11,6 +11,7 @@ namespace floe {
 namespace {
 
 constexpr double weight_step = 1e-3;  // in the parameter's scale, for weights, which are exact
+constexpr double clock_step = 4;      // [ns] each way; light rises more slowly after some scattering
 
 }  // namespace
 
@@ -24,7 +25,8 @@ IcePoint::IcePoint(const Model& base, const std::vector<IceParameter>& parameter
       parameters_(parameters),
       numbers_(std::move(numbers)),
       model_(with_parameters(base, parameters, numbers_)),
-      map_(model_, wavelength, static_cast<int>(parameters.size())) {
+      map_(model_, wavelength, static_cast<int>(parameters.size())),
+      of_modules_(parameters.size()) {
   for (std::size_t p = 0; p < parameters_.size(); ++p) {
     const double size = weight_step * parameters_[p].scale;
     const bool downwards = numbers_[p] > 0 && numbers_[p] - size >= parameters_[p].low;
@@ -36,7 +38,12 @@ IcePoint::IcePoint(const Model& base, const std::vector<IceParameter>& parameter
     }
     const bool of_turns = parameters_[p].effect && parameters_[p].effect->effect == "birefringence";
     if (!(of_turns && turns_by_pairs) && map_.add(static_cast<int>(p), changed, step)) continue;
-    if (auto change = AcceptanceChange::between(model_, changed))
+    of_modules_[p] = ModuleChange::between(model_, changed);
+    if (of_modules_[p] && of_modules_[p]->only_clocks) {
+      std::vector<double> later = of_modules_[p]->later;
+      for (double& time : later) time /= step;
+      of_clocks_.push_back({p, std::move(later)});
+    } else if (auto change = AcceptanceChange::between(model_, changed))
       of_acceptance_.push_back({p, std::move(*change), step});
     else
       pairs_.push_back(p);
@@ -67,9 +74,43 @@ IcePoint::Light IcePoint::light(const RunRequest& request, const SimulatedRun& s
   result.light = light_with_slopes(model_, request, simulated, bins, map_, time_zero);
   for (const OfAcceptance& slope : of_acceptance_) add_acceptance(simulated, bins, slope, result.light);
   for (const OfNoise& slope : of_noise_) add_noise(request, bins, slope, result.light);
+  for (const OfClocks& slope : of_clocks_) add_clocks(simulated, bins, slope, result.light);
   for (const std::size_t p : pairs_)
     result.propagated += add_pair(request, bins, time_zero, plan, p, result.light);
+  leave_out_untouched(request, bins, result.light);
   return result;
+}
+
+void IcePoint::leave_out_untouched(const RunRequest& request, const RunBins& bins, RunLight& light) const {
+  const std::size_t flasher = model_.detector->index_of(request.run.module);
+  for (std::size_t p = 0; p < of_modules_.size(); ++p) {
+    if (!of_modules_[p] || of_modules_[p]->moved[flasher]) continue;
+    for (const RunBins::Receiver& receiver : bins.receivers()) {
+      if (of_modules_[p]->touched[receiver.module]) continue;
+      for (LightFold& fold : light.folds)
+        fold.dwell.col(static_cast<Eigen::Index>(p)).segment(receiver.first, receiver.bins()).setZero();
+    }
+  }
+}
+
+// The hits themselves, earlier and later.
+void IcePoint::add_clocks(const SimulatedRun& simulated, const RunBins& bins, const OfClocks& slope,
+                          RunLight& light) const {
+  const auto column = static_cast<Eigen::Index>(slope.parameter);
+  light.symmetric[slope.parameter] = 0;
+  for (LightFold& fold : light.folds) fold.dwell.col(column) = fold.counts;
+  for (const SimulatedHit& hit : simulated.hits) {
+    const double later = slope.later[hit.module];
+    if (later == 0) continue;
+    const int after = bins.bin(hit.module, hit.time + clock_step),
+              before = bins.bin(hit.module, hit.time - clock_step);
+    if (after == before) continue;  // also: no receiver
+    const double change = later / (2 * clock_step);
+    LightFold& fold = light.folds[hit.photon & 1];
+    fold.slopes(after, column) += change;
+    fold.slopes(before, column) -= change;
+    for (const int bin : {after, before}) fold.slope_squares(bin, column) += change * change;
+  }
 }
 
 // Exactly known in counts; relative to the light of a half it has that half's noise, as other slopes have.

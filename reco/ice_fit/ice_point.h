@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "propagation/model.h"
 #include "reco/ice_fit/acceptance_slopes.h"
 #include "reco/ice_fit/ice_parameter.h"
+#include "reco/ice_fit/module_change.h"
 #include "reco/ice_fit/run_bins.h"
 #include "reco/ice_fit/run_light.h"
 #include "reco/ice_fit/score_map.h"
@@ -64,11 +66,19 @@ class IcePoint {
     std::size_t parameter;
     double slope;  // of the rate
   };
+  struct OfClocks {
+    std::size_t parameter;
+    std::vector<double> later;  // by module, as the parameter grows by one [ns]
+  };
+  void add_clocks(const SimulatedRun& simulated, const RunBins& bins, const OfClocks& slope,
+                  RunLight& light) const;
   void add_noise(const RunRequest& request, const RunBins& bins, const OfNoise& slope, RunLight& light) const;
   void add_acceptance(const SimulatedRun& simulated, const RunBins& bins, const OfAcceptance& slope,
                       RunLight& light) const;
   std::uint64_t add_pair(const RunRequest& request, const RunBins& bins, double time_zero,
                          const PairPlan& plan, std::size_t parameter, RunLight& light) const;
+  // Light of modules that a parameter does not touch dwells nowhere where it acts.
+  void leave_out_untouched(const RunRequest& request, const RunBins& bins, RunLight& light) const;
 
   const Model& base_;
   const std::vector<IceParameter>& parameters_;
@@ -77,6 +87,9 @@ class IcePoint {
   ScoreMap map_;
   std::vector<OfAcceptance> of_acceptance_;
   std::vector<OfNoise> of_noise_;
+  std::vector<OfClocks> of_clocks_;
+  // By parameter, where it changes nothing but modules one by one.
+  std::vector<std::optional<ModuleChange>> of_modules_;
   std::vector<std::size_t> pairs_;  // all other parameters that weights of paths cannot express
 };
 

@@ -29,7 +29,7 @@ RunBins::RunBins(std::span<const SimulatedHit> hits, double scale, const std::ve
   for (std::uint32_t module = 0; module < used.size(); ++module) {
     const auto simulated = static_cast<double>(times[module].size());
     if (scale * simulated < rules.least_counts) continue;
-    const double wanted = std::min(scale, 1.0) * simulated / rules.counts_a_bin;
+    const double wanted = simulated * std::min(scale / rules.counts_a_bin, 1 / rules.hits_a_bin);
     const int bins = std::clamp(static_cast<int>(wanted), 1, rules.most_bins);
     receiver_of_[module] = static_cast<int>(receivers_.size());
     receivers_.push_back({module, size_, quantiles(times[module], bins)});

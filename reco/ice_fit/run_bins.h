@@ -20,7 +20,8 @@ class RunBins {
   };
   struct Rules {
     double least_counts = 5;   // expected of a receiver in the data
-    double counts_a_bin = 30;  // expected of a bin in the data, and simulated
+    double counts_a_bin = 30;  // expected of a bin in the data
+    double hits_a_bin = 6;     // simulated; fits have ten times the light that bins are made from
     int most_bins = 8;         // of a receiver
   };
   RunBins() = default;

@@ -33,6 +33,14 @@ Eigen::MatrixXd own_slopes(const LightFold& fold, const RunColumns& columns) {
 
 }  // namespace
 
+ScoreSystem& ScoreSystem::operator+=(const ScoreSystem& other) {
+  gap += other.gap;
+  slope += other.slope;
+  information += other.information;
+  noise += other.noise;
+  return *this;
+}
+
 void add_run(const RunLight& light, const RunLight& seen, const RunCounts& counts, const RunColumns& columns,
              ScoreSystem& system) {
   const LightFold* folds = light.folds;

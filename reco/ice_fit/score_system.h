@@ -24,6 +24,9 @@ struct ScoreSystem {
         noise(Eigen::MatrixXd::Zero(size, size)) {}
   Eigen::VectorXd gap;
   Eigen::MatrixXd slope, information, noise;
+
+  // Of other runs, with the same columns.
+  ScoreSystem& operator+=(const ScoreSystem& other);
 };
 
 struct RunCounts {

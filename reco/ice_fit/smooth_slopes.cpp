@@ -85,19 +85,29 @@ Eigen::MatrixXd bin_places(const RunBins& bins, const Detector& detector, const 
 SmoothSlopes smooth_slopes(const LightFold (&folds)[2], const Eigen::MatrixXd& places,
                            const std::vector<char>& symmetric) {
   const FoldSlopes slopes[2] = {fold_slopes(folds[0]), fold_slopes(folds[1])};
-  const Eigen::ArrayXd weights = slopes[0].counts + slopes[1].counts;
+  const Eigen::ArrayXd all_weights = slopes[0].counts + slopes[1].counts;
   SmoothSlopes result{{slopes[0].mean, slopes[1].mean}};
   for (Eigen::Index p = 0; p < slopes[0].mean.cols(); ++p) {
+    const bool is_symmetric = symmetric[static_cast<std::size_t>(p)] != 0;
+    // What acts at some modules only is smooth there: one string is no smooth function of all places.
+    const Eigen::ArrayXd acts =
+        is_symmetric ? Eigen::ArrayXd::Ones(all_weights.size())
+                     : (folds[0].dwell.col(p) + folds[1].dwell.col(p)).array().min(1.0).ceil().eval();
+    const Eigen::ArrayXd weights = all_weights * acts;
+    if (!(weights.sum() > 0)) {
+      for (Eigen::MatrixXd& fold : result.fold) fold.col(p).setZero();
+      continue;
+    }
     Eigen::VectorXd smooth[2], rest[2];
     for (int fold = 0; fold < 2; ++fold)
-      smooth[fold] = fitted(
-          terms_of(folds[fold], slopes[fold].counts, places, p, symmetric[static_cast<std::size_t>(p)] != 0),
-          slopes[fold].counts, slopes[fold].mean.col(p));
+      smooth[fold] = fitted(terms_of(folds[fold], slopes[fold].counts, places, p, is_symmetric),
+                            slopes[fold].counts * acts, slopes[fold].mean.col(p))
+                         .cwiseProduct(acts.matrix());
     const double agreed = product(smooth[0], smooth[1], weights);
     for (int fold = 0; fold < 2; ++fold) {
       const double power = product(smooth[fold], smooth[fold], weights);
       smooth[fold] *= power > 0 ? std::clamp(agreed / power, 0.0, 1.0) : 0.0;
-      rest[fold] = slopes[fold].mean.col(p) - smooth[fold];
+      rest[fold] = slopes[fold].mean.col(p).cwiseProduct(acts.matrix()) - smooth[fold];
     }
     const double power = std::max(0.0, product(rest[0], rest[1], weights));
     for (int fold = 0; fold < 2; ++fold) {

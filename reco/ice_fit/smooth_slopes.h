@@ -24,7 +24,8 @@ Eigen::MatrixXd bin_places(const RunBins& bins, const Detector& detector, const 
 struct SmoothSlopes {
   Eigen::MatrixXd fold[2];
 };
-// `symmetric`: by parameter, whether its effect has that symmetry.
+// `symmetric`: by parameter, whether its effect has that symmetry; of one that has not, bins without dwell
+// have no slope, and what others have is smooth among themselves.
 SmoothSlopes smooth_slopes(const LightFold (&folds)[2], const Eigen::MatrixXd& places,
                            const std::vector<char>& symmetric);
 

@@ -150,6 +150,71 @@ TEST_F(OfOneFlasher, AFitEndsWhenItsQuestionIsSettled) {
   EXPECT_FALSE(ended.converged);
 }
 
+// Whose clock is late is found, with the error that the light itself allows: of N hits whose times rise and
+// fall over tens of nanoseconds.
+TEST_F(OfOneFlasher, AFitFindsALateClock) {
+  constexpr double late = 12;  // [ns]
+  constexpr int string = 36;
+  FlasherData data = data_;
+  for (RunData::Pulse& pulse : data.runs[0].pulses)
+    if (model_.detector->modules()[pulse.module].id.string == string) pulse.time += late;
+  Suspect suspect;
+  suspect.effect = "time-offset";
+  suspect.place = {{"string", string}};
+  suspect.amplitudes = {{{0, 1.0}}};
+  IceFitOptions options;
+  static_cast<RunSettings&>(options) = settings_;
+  options.judged = false;
+  const IceFit fit =
+      fit_ice(model_, data, fit_parameters(suspect, Eigen::VectorXd::Zero(1), model_), options);
+  EXPECT_NEAR(fit.value(0), late, 3 * fit.error(0));
+  EXPECT_LT(fit.error(0), 2.5);
+  EXPECT_GT(fit.error(0), 0.3);
+}
+
+// Two runs that tell of different ice: a fit that leaves one out finds the other's, as a fit to that one
+// alone does. What no run that is left tells is where its prior has it.
+TEST_F(OfOneFlasher, AFitWithoutARunKnowsNothingOfIt) {
+  FlasherData data;
+  const double truth[2] = {1.08, 0.92};
+  const ModuleId flashers[2] = {{36, 20}, {45, 40}};
+  std::vector<Event> events(2);
+  for (std::size_t r = 0; r < 2; ++r) {
+    const EffectSetting setting{"absorption-scale", "factor", truth[r]};
+    ModelParts parts = parts_of(model_);
+    apply_effects({&setting, 1}, parts);
+    run_.module = flashers[r];
+    for (const SimulatedHit& hit :
+         simulate_run(freeze(std::move(parts)), request(photons_, data_stream + 10 + r)).hits)
+      events[r].hits.push_back(to_hit(hit, *model_.detector));
+    events[r].flasher = run_;
+    events[r].id = fmt::format("{}", r);
+  }
+  data = flasher_data(*model_.detector, events);
+
+  std::vector<IceParameter> parameters{effect_parameter("absorption-scale", model_)};
+  parameters.push_back(layer_factor(LayerFamily::scattering, 1720, 1760, model_));  // of the first flasher
+  parameters[1].prior = 0.3, parameters[1].prior_centre = 0;
+  parameters[1].start = 0.05;
+  IceFitOptions options;
+  static_cast<RunSettings&>(options) = settings_;
+  options.judged = false;
+  options.light.light = 2;
+  const auto without = fit_ice_without(model_, data, parameters, {{0, 1}, {1, 0}}, options);
+  for (std::size_t r = 0; r < 2; ++r) {
+    ASSERT_TRUE(without[r].has_value());
+    const FlasherData alone = flasher_data(*model_.detector, std::vector{events[r]});
+    const IceFit fit = fit_ice(model_, alone, parameters, options);
+    // The data are the same; simulations have twice their light each.
+    const double noise = fit.error(0) * std::sqrt(2 * 0.5);
+    EXPECT_NEAR(parameters[0].logarithmic ? std::exp((*without[r])[0]) : (*without[r])[0], fit.value(0),
+                3 * noise);
+    EXPECT_NEAR(fit.value(0), truth[r], 3 * fit.error(0));
+    EXPECT_LT(fit.error(0), 0.05);
+  }
+  EXPECT_NEAR((*without[1])[1], 0, 0.1);
+}
+
 class ASurvey : public OfOneFlasher {
  protected:
   static constexpr double more_ = 8;  // times the data's light, for the light of a change

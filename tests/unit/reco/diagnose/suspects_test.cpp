@@ -73,6 +73,15 @@ TEST_F(Suspects, AreTheEffectsThatTheDataCanTell) {
   EXPECT_FALSE(planned("hole-ice.scattering"));
 }
 
+TEST_F(Suspects, SayWhyOthersAreNone) {
+  const auto why = [&](const char* effect) { return why_no_suspect(effect, model_, 16); };
+  EXPECT_NE(why("hole-ice").find("--oversize 1"), std::string::npos);
+  EXPECT_NE(why("grains").find("birefringence by another name"), std::string::npos);
+  EXPECT_NE(why("flasher-brightness").find("brightness of each run"), std::string::npos);
+  EXPECT_NE(why("cable-shadow").find("where the cables are is not known"), std::string::npos);
+  EXPECT_NE(why("module-efficiency").find("no light of these runs"), std::string::npos);
+}
+
 TEST_F(Suspects, HoleIceIsNoneWhereModulesAreWidened) {
   for (const IceParameter& p : plan_suspects(model_, {1700, 1900}, 3, 16).parameters)
     EXPECT_FALSE(p.name.starts_with("hole-ice")) << p.name;

@@ -26,7 +26,7 @@ TEST(RunBins, AreQuantilesOfTheSimulatedTimes) {
   std::vector<SimulatedHit> hits;
   add_hits(hits, 0, 60, 100, 1);
   add_hits(hits, 0, 60, 500, 20);  // a tail
-  const RunBins bins(hits, 1, {1}, {5, 30, 8});
+  const RunBins bins(hits, 1, {1}, {5, 30, 30, 8});
   ASSERT_EQ(bins.size(), 4);
   EXPECT_EQ(counts_of(bins, hits), (std::vector<int>{30, 30, 30, 30}));
   EXPECT_EQ(bins.receivers()[0].inner_edges, (std::vector<double>{130, 500, 1100}));
@@ -35,7 +35,7 @@ TEST(RunBins, AreQuantilesOfTheSimulatedTimes) {
 TEST(RunBins, OpenEndsTakeWhatComesBeforeAndAfter) {
   std::vector<SimulatedHit> hits;
   add_hits(hits, 0, 90, 100, 1);
-  const RunBins bins(hits, 1, {1}, {5, 30, 8});
+  const RunBins bins(hits, 1, {1}, {5, 30, 30, 8});
   ASSERT_EQ(bins.size(), 3);
   EXPECT_EQ(bins.bin(0, -1e9), 0);
   EXPECT_EQ(bins.bin(0, 129.99), 0);
@@ -51,7 +51,7 @@ TEST(RunBins, DimAndUnusedModulesAreNoReceivers) {
   add_hits(hits, 1, 10, 0, 1);   // 5
   add_hits(hits, 3, 200, 0, 1);  // not used
   add_hits(hits, 4, 120, 0, 1);
-  const RunBins bins(hits, 0.5, {1, 1, 1, 0, 1}, {5, 30, 8});
+  const RunBins bins(hits, 0.5, {1, 1, 1, 0, 1}, {5, 30, 30, 8});
   ASSERT_EQ(bins.receivers().size(), 2U);
   EXPECT_EQ(bins.receivers()[0].module, 1U);
   EXPECT_EQ(bins.receivers()[1].module, 4U);
@@ -67,11 +67,12 @@ TEST(RunBins, DimAndUnusedModulesAreNoReceivers) {
 TEST(RunBins, AsManyAsTheScarcerOfDataAndSimulationAllows) {
   std::vector<SimulatedHit> hits;
   add_hits(hits, 0, 120, 0, 1);
-  EXPECT_EQ(RunBins(hits, 0.25, {1}, {5, 30, 8}).size(), 1);
-  EXPECT_EQ(RunBins(hits, 0.5, {1}, {5, 30, 8}).size(), 2);
-  EXPECT_EQ(RunBins(hits, 1, {1}, {5, 30, 8}).size(), 4);
-  EXPECT_EQ(RunBins(hits, 100, {1}, {5, 30, 8}).size(), 4);
-  EXPECT_EQ(RunBins(hits, 1, {1}, {5, 30, 3}).size(), 3);
+  EXPECT_EQ(RunBins(hits, 0.25, {1}, {5, 30, 30, 8}).size(), 1);
+  EXPECT_EQ(RunBins(hits, 0.5, {1}, {5, 30, 30, 8}).size(), 2);
+  EXPECT_EQ(RunBins(hits, 1, {1}, {5, 30, 30, 8}).size(), 4);
+  EXPECT_EQ(RunBins(hits, 100, {1}, {5, 30, 30, 8}).size(), 4);
+  EXPECT_EQ(RunBins(hits, 100, {1}, {5, 30, 20, 8}).size(), 6);  // fits will have more light than these hits
+  EXPECT_EQ(RunBins(hits, 1, {1}, {5, 30, 30, 3}).size(), 3);
 }
 
 // Direct light may come at one time to the last bit of a float.
@@ -80,7 +81,7 @@ TEST(RunBins, NoBinIsWithoutSimulatedLight) {
   add_hits(hits, 0, 100, 70, 0);
   add_hits(hits, 0, 20, 80, 1);
   add_hits(hits, 1, 90, 70, 0);
-  const RunBins bins(hits, 1, {1, 1}, {5, 30, 8});
+  const RunBins bins(hits, 1, {1, 1}, {5, 30, 30, 8});
   for (const int count : counts_of(bins, hits)) EXPECT_GT(count, 0);
 }
 
@@ -88,7 +89,7 @@ TEST(RunBins, NoBinIsWithoutSimulatedLight) {
 TEST(RunBins, PulsesAreSpreadOverTheirWidth) {
   std::vector<SimulatedHit> hits;
   add_hits(hits, 0, 90, 100, 1);
-  const RunBins bins(hits, 1, {1, 1}, {5, 30, 8});
+  const RunBins bins(hits, 1, {1, 1}, {5, 30, 30, 8});
   ASSERT_EQ(bins.size(), 3);
   Eigen::VectorXd counts = Eigen::VectorXd::Zero(3);
   bins.add_spread(0, 140, 40, 4, counts);  // 120 to 160

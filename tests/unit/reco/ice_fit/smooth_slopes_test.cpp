@@ -105,6 +105,35 @@ TEST(SmoothSlopes, SayOnAverageWhatTheSlopesAre) {
   }
 }
 
+// What acts on a tenth of the bins is found there as if there were no others: a fit's information, which is
+// the sum of weights times slopes, is that of the slopes, but for what noise of one bin takes (a fifth,
+// shared by the few terms of a smooth slope).
+TEST(SmoothSlopes, OfAFewBinsAreNotDilutedByAllOthers) {
+  std::mt19937_64 random(5);
+  constexpr Eigen::Index first = 80, few = 20;
+  Eigen::VectorXd truth = Eigen::VectorXd::Zero(bin_count);
+  for (Eigen::Index b = first; b < first + few; ++b) truth(b) = 0.02 * (static_cast<double>(b - first) - 9.5);
+  const double sigma = 0.5 * std::sqrt(truth.squaredNorm() / few) * std::sqrt(30.0);
+  double information = 0;
+  constexpr int trials = 50;
+  for (int trial = 0; trial < trials; ++trial) {
+    LightFold folds[2];
+    draw(truth, 30, sigma, random, folds);
+    for (LightFold& fold : folds)
+      for (Eigen::Index b = 0; b < bin_count; ++b)
+        if (b < first || b >= first + few)
+          fold.dwell(b, 0) = fold.slopes(b, 0) = fold.slope_squares(b, 0) = 0;
+    const SmoothSlopes slopes = smooth_slopes(folds, some_places(), {0});
+    for (const auto& fold : slopes.fold) {
+      information += fold.col(0).dot(truth) / (2 * trials);
+      EXPECT_EQ(fold.col(0).head(first).norm(), 0);
+      EXPECT_EQ(fold.col(0).tail(bin_count - first - few).norm(), 0);
+    }
+  }
+  EXPECT_GT(information, 0.8 * truth.squaredNorm());
+  EXPECT_LT(information, 1.1 * truth.squaredNorm());
+}
+
 TEST(SmoothSlopes, AreNothingWhereThereIsNothing) {
   std::mt19937_64 random(4);
   double left = 0;
