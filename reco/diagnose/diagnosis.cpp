@@ -24,7 +24,7 @@ constexpr std::uint64_t look_stream = std::uint64_t{1} << 44, judge_stream = std
                         gap_stream = judge_stream + (std::uint64_t{1} << 40);
 // Light of the gap's measurement, in units of that of fits: twice ln L of two simulations differs by tens
 // where they have hardly more light than the data.
-constexpr double light_of_gap = 4;
+constexpr double light_of_gap = 3;
 constexpr double leading_share = 0.35;  // of the best gain: suspects that are fitted, too
 constexpr std::size_t most_trials = 3;
 constexpr double hopeless_share = 0.3;   // of the best chi-square so far
@@ -246,12 +246,16 @@ class Diagnoser {
   }
 
   // The score chose the best of many suspects, and of noisy slopes: fresh light has to show a good part of
-  // it.
+  // it, in the fit or, since chi-squares about the model without the effect are short of what it gains where
+  // its slopes change on the way, in what it gains.
   bool is_confirmed(const DiagnosisStep& now) const {
     constexpr double by_chance = 0.01;
     const Trial& best = now.trials.front();
-    return chi_square_probability(best.chi_square, static_cast<double>(best.parameters.size())) < by_chance &&
-           best.chi_square / 2 > confirmed_share * score_of_winner(now).best.gain;
+    if (chi_square_probability(best.chi_square, static_cast<double>(best.parameters.size())) > by_chance)
+      return false;
+    const double wanted = confirmed_share * score_of_winner(now).best.gain;
+    return best.chi_square / 2 > wanted ||
+           neg_llh_of_all(accepted_.model()) - best.neg_llh > wanted + 2 * judge_->noise_of_differences();
   }
   // Every trial is of an effect that has a score.
   static const EffectScore& score_of_winner(const DiagnosisStep& now) {
@@ -409,6 +413,7 @@ class Diagnoser {
     if (!found) return;
     while (!accepted_.empty()) {
       take_gaps(gaps.of(accepted_, stages_, 0.9, 0.95));
+      if (is_past_asking(gaps)) break;
       const double without = gap_without_last(gaps);
       if (result_.gap_after <= without + gaps.noise_of_differences()) break;
       give_up(accepted_.effects().size() - 1,
@@ -424,6 +429,18 @@ class Diagnoser {
   void take_gaps(const Gaps& gaps) {
     for (std::size_t r = 0; r < gaps.size(); ++r) result_.gaps[r].after = gaps[r];
     result_.gap_after = total(gaps);
+  }
+
+  // With several effects the question costs a fit and a measurement. The answer is known where the last one
+  // gains so much in the fit that a small part of it is more than the noise of measured gaps.
+  bool is_past_asking(const HeldOutGaps& gaps) const {
+    constexpr double small_part = 0.2;
+    const std::size_t effects = accepted_.effects().size();
+    if (effects == 1 || result_.gap_after > result_.gap_before) return false;
+    double gained = 0;
+    for (const DiagnosisStep& step : result_.steps)
+      if (step.added == effects - 1) gained = step.trials.front().chi_square;
+    return small_part * gained > gaps.noise_of_differences();
   }
 
   // Of what was found before the last effect, or of the base where that is better.

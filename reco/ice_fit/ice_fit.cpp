@@ -25,6 +25,7 @@ constexpr double longest_step = 0.7;  // of a round, in the parameter's scale
 // Two steps so small, in their errors, are the last: root mean square and largest. New simulations in every
 // round keep them from getting much smaller; one step alone may be small by chance, on its way.
 constexpr double settled = 0.8, settled_most = 2.5;
+
 void check(const IceFitOptions& options) {
   check(static_cast<const RunSettings&>(options));
   if (!(options.smoothness > 0 && options.amplitude > 0))
