@@ -61,7 +61,7 @@ class Trials {
     const std::vector<Suspect> suspects = suspects_of(survey, plan);
     const ScoreTester tester(survey, suspects, plan.parameters, draws());
 
-    result_.power = seen_above(tester, base_, alpha_of_score());
+    result_.power = seen_above(tester, base_, alpha_of_score(), options_.floor);
     const std::vector<Hidden> hidden = plan_trials(tester);
     const std::vector<Full> full = plan_full(hidden, survey);
     seal(hidden, full);

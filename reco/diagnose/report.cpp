@@ -249,15 +249,26 @@ std::string confusion_table(const DiagnosisStep& step) {
   return table(heading, rows);
 }
 
+// "k1 0.597 ± 0.029"
+std::string values_text(const Trial& trial) {
+  std::string text;
+  for (std::size_t i = 0; i < trial.values.size(); ++i) {
+    const std::string& name = trial.parameters[i].name;
+    text += (text.empty() ? "" : ", ") + name.substr(name.find('.') + 1) + " " +
+            value_text(trial.values[i], trial.errors[i], trial.parameters[i].unit);
+  }
+  return text;
+}
+
 std::string trial_table(const DiagnosisStep& step) {
   std::vector<std::vector<std::string>> rows;
   for (const Trial& trial : step.trials)
     rows.push_back(
-        {text_of(trial.suspect), fmt::format("{}", trial.parameters.size()),
-         fmt::format("{:.1f}", trial.neg_llh), fmt::format("{:.0f}", trial.chi_square),
+        {text_of(trial.suspect), values_text(trial), fmt::format("{:.1f}", trial.neg_llh),
+         fmt::format("{:.0f}", trial.chi_square),
          trial.lost ? fmt::format("{:.0f}, the winner {:.0f}", trial.lost->loser, trial.lost->winner) : ""});
-  return table(
-      {"fitted", "parameters", "−ln L", "χ² about the model without it", "χ² added beside its rival"}, rows);
+  return table({"suspect", "fitted", "−ln L", "χ² about the model without it", "χ² added beside its rival"},
+               rows);
 }
 
 std::string region_table(const DiagnosisStep& step) {

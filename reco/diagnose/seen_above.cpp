@@ -6,7 +6,7 @@
 
 namespace floe {
 
-std::vector<SeenAbove> seen_above(const ScoreTester& tester, const Model& base, double alpha) {
+std::vector<SeenAbove> seen_above(const ScoreTester& tester, const Model& base, double alpha, double floor) {
   std::map<std::string, std::vector<double>> changes;
   std::map<std::string, std::vector<IceParameter>> of_effect;  // alike at all places
   std::vector<SeenAbove> all;
@@ -18,11 +18,12 @@ std::vector<SeenAbove> seen_above(const ScoreTester& tester, const Model& base, 
     const std::vector<IceParameter>& parameters = known->second;
     for (std::size_t i = 0; i < parameters.size(); ++i) {
       const auto index = static_cast<Eigen::Index>(i);
-      const double of_one = tested.expected_gain(Eigen::VectorXd::Unit(tested.low.size(), index));
-      if (!(of_one > 0)) continue;
+      const Eigen::VectorXd one = Eigen::VectorXd::Unit(tested.low.size(), index);
+      const double of_one = tested.expected_gain(one), size_of_one = tested.size(one);
+      if (!(of_one > 0 && size_of_one > 0)) continue;
       std::vector<double>& of_parameter = changes[parameters[i].name];
       if (of_parameter.empty()) all.push_back({suspect.effect, parameters[i].name, parameters[i].unit, 0});
-      of_parameter.push_back(std::sqrt(gain / of_one));
+      of_parameter.push_back(std::max(std::sqrt(gain / of_one), floor / size_of_one));
     }
   }
   for (SeenAbove& seen : all) {

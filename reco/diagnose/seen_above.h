@@ -14,7 +14,8 @@ struct SeenAbove {
   double change = 0;  // from the base's own value; the median of all places
 };
 
-// Of all parameters of all suspects, each alone. `alpha`: probability of naming anything by chance.
-std::vector<SeenAbove> seen_above(const ScoreTester& tester, const Model& base, double alpha);
+// Of all parameters of all suspects, each alone. `alpha`: probability of naming anything by chance; `floor`:
+// relative change of light below which nothing is named (ScoreTester::test).
+std::vector<SeenAbove> seen_above(const ScoreTester& tester, const Model& base, double alpha, double floor);
 
 }  // namespace floe
