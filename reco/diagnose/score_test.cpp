@@ -327,7 +327,11 @@ VectorXd ScoreTester::difference(const Score& score, const std::string& other) c
 bool is_inseparable(const EffectScore& effect, const EffectScore& first) {
   constexpr double same = 0.9, much = 0.5;  // likeness
   constexpr double undecided = 3;           // differences of ln p
-  return effect.likeness > same || (effect.likeness > much && effect.ln_p - first.ln_p < undecided);
+  // What could imitate nearly all of it would explain the data nearly as well: likeness is an estimate, too.
+  constexpr double comparable = 0.5;  // gain
+  const bool explains = effect.best.gain >= comparable * first.best.gain;
+  return (effect.likeness > same && explains) ||
+         (effect.likeness > much && effect.ln_p - first.ln_p < undecided);
 }
 
 double ln_tail_probability(double surprise, const std::vector<double>& drawn) {

@@ -69,9 +69,16 @@ class Climb {
         static_cast<double>(anisotropy_descriptions().size() * static_cast<std::size_t>(options_.folds + 1));
     const double share = 1 / static_cast<double>(anisotropy_descriptions().size() *
                                                  static_cast<std::size_t>(options_.folds + 1));
-    return fit_ice(bare, data, parameters, options, [&](double fraction, const std::string& stage) {
-      if (progress_) progress_(done + share * fraction, name_ + ": " + stage);
-    });
+    try {
+      return fit_ice(bare, data, parameters, options, [&](double fraction, const std::string& stage) {
+        if (progress_) progress_(done + share * fraction, name_ + ": " + stage);
+      });
+    } catch (const InputError& error) {
+      throw InputError(
+          fmt::format("the fit of {} leads to no physical ice; steps are less noisy with more "
+                      "light (--light). {}",
+                      name_, error.what()));
+    }
   }
 
   LadderRung rung(const AnisotropyDescription& plan, const Model& bare) {

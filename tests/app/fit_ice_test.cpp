@@ -138,12 +138,12 @@ TEST_F(FitIce, LeavesOutWhatCannotBeRightAndFitsTheRest) {
   // A run without light, one of another colour, and a measured one with a receiver that is far too bright.
   spoiled += "FLASHER 50 30 photons=1e8 oversize=16\n";
   spoiled += "FLASHER 51 30 wavelength_nm=340 photons=1e8 oversize=16\nHIT 51 31 200 340 1.5 0.2 1.5 0.2\n";
-  spoiled += "FLASHER 26 30 photons=1e8 oversize=16\n";
+  spoiled += "FLASHER 26 30 photons=1e8\n";
   for (int i = 0; i < 2000; ++i) spoiled += "HIT 26 31 120 405 1.5 0.2 1.5 0.2\n";
   for (int i = 0; i < 40; ++i) spoiled += "HIT 26 33 330 405 1.5 0.2 1.5 0.2\n";
   write("spoiled.hits", spoiled);
-  const Outcome outcome =
-      floe_well("fit-ice spoiled.hits --fit absorption-scale --light 1 --least-hits 2000 -o fitted");
+  const Outcome outcome = floe_well(
+      "fit-ice spoiled.hits --fit absorption-scale --light 1 --least-hits 2000 --oversize 16 -o fitted");
   const std::string left_out = result()["left_out"].dump();
   for (const char* said : {"run 50,30: no light", "run 51,30: flashes at 340 nm", "36,21:", "dead",
                            "26,31 in run 26,30", "saturated"}) {
@@ -156,7 +156,7 @@ TEST_F(FitIce, LeavesOutWhatCannotBeRightAndFitsTheRest) {
 TEST_F(FitIce, LadderRefitsFiveModelsAndHoldsEveryRunOutOnce) {
   simulate("");
   const Outcome outcome =
-      floe_well("ladder runs.h5 --light 0.5 --least-hits 1000 --oversize 16 --json ladder.json");
+      floe_well("ladder runs.h5 --light 1 --least-hits 1000 --oversize 16 --json ladder.json");
   const Json ladder = Json::parse(text_of("ladder.json"));
   ASSERT_EQ(ladder["models"].size(), 5u);
   double least = 1e300;

@@ -26,13 +26,14 @@ TEST(Probabilities, AreStandardDeviationsOfAGaussian) {
 
 // Alike, or half alike and as probable.
 TEST(Scores, AreInseparableWhereBothMayBeWhatIsMissing) {
-  const auto score = [](double likeness, double ln_p) {
+  const auto score = [](double likeness, double ln_p, double gain = 30) {
     EffectScore effect;
-    effect.likeness = likeness, effect.ln_p = ln_p;
+    effect.likeness = likeness, effect.ln_p = ln_p, effect.best.gain = gain;
     return effect;
   };
   const EffectScore first = score(1, -20);
   EXPECT_TRUE(is_inseparable(score(0.95, -5), first));
+  EXPECT_FALSE(is_inseparable(score(1, -5, 12), first));  // the data have told them apart
   EXPECT_TRUE(is_inseparable(score(0.7, -18), first));
   EXPECT_FALSE(is_inseparable(score(0.7, -12), first));
   EXPECT_FALSE(is_inseparable(score(0.2, -20), first));  // another effect, as strong
