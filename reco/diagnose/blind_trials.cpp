@@ -14,6 +14,7 @@
 #include "propagation/effects/effect.h"
 #include "reco/diagnose/goodness.h"
 #include "reco/diagnose/outside_effects.h"
+#include "reco/diagnose/rivals.h"
 #include "reco/diagnose/score_test.h"
 #include "reco/diagnose/score_values.h"
 

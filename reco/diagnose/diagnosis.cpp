@@ -12,6 +12,7 @@
 #include "propagation/effects/effect.h"
 #include "reco/diagnose/effect_fits.h"
 #include "reco/diagnose/goodness.h"
+#include "reco/diagnose/rivals.h"
 #include "reco/diagnose/stages.h"
 #include "reco/ice_fit/model_judge.h"
 #include "reco/validation/two_sample_tests.h"
@@ -24,10 +25,11 @@ constexpr std::uint64_t look_stream = std::uint64_t{1} << 44, judge_stream = std
                         gap_stream = judge_stream + (std::uint64_t{1} << 40);
 // Light of the gap's measurement, in units of that of fits: twice ln L of two simulations differs by tens
 // where they have hardly more light than the data.
-constexpr double light_of_gap = 3;
-constexpr double leading_share = 0.35;  // of the best gain: suspects that are fitted, too
+constexpr double light_of_gap = 2;
 constexpr std::size_t most_trials = 3;
-constexpr double hopeless_share = 0.3;   // of the best chi-square so far
+// Of the best chi-square so far, after two rounds and after more: the further a fit has come, the less it
+// catches up. And of the chi-square that the score promises.
+constexpr double hopeless_share = 0.3, hopeless_share_later = 0.7, hopeless_share_of_promise = 0.1;
 constexpr double confirmed_share = 0.4;  // of the gain that a score promised, by a fit
 
 void check_options(const DiagnosisOptions& options, int flashers) {
@@ -106,6 +108,7 @@ class Diagnoser {
     find_separations(survey, axes, tester, now.scores);
     result_.steps.push_back(std::move(now));
     result_.looked_at_improved = true;
+    neg_llh_so_far_.reset();
     const DiagnosisStep& last = result_.steps.back();
     return last.scores.p_value < options_.alpha / 2 || last.p_of_fit < options_.alpha / 2;
   }
@@ -116,19 +119,13 @@ class Diagnoser {
     separations_.clear();
     std::vector<const Score*> rivals;
     for (const EffectScore& effect : scores.effects)
-      if (is_inseparable(effect, scores.effects.front()) || leads(effect, scores))
+      if (is_inseparable(effect, scores.effects.front()) || leads(effect, scores.effects.front()))
         rivals.push_back(&effect.best);
     for (const Score* one : rivals)
       for (const Score* other : rivals)
         if (one != other)
           separations_.push_back(separation(survey, axes, tester.difference(*one, other->suspect.effect),
                                             one->suspect.effect, other->suspect.effect));
-  }
-  static bool leads(const EffectScore& effect, const ScoreTest& scores) {
-    constexpr double least_gain = 5;
-    constexpr double by_chance = 0.05;  // for all its places
-    return effect.best.gain >= leading_share * scores.effects.front().best.gain &&
-           effect.best.gain > least_gain && effect.ln_p < std::log(by_chance);
   }
 
   void judge_fit(const Survey& survey, DiagnosisStep& now) const {
@@ -168,16 +165,16 @@ class Diagnoser {
             fmt::format("What stays looks like more of {}, not as it was fitted", text_of(leader)));
       return false;
     }
-    const double from = begin(step), to = begin(step + 1);
-    stages_.begin(from + (to - from) * 0.8, to, "which of them is missing");
-    hold_contest(
-        base_, judge_->noise_of_differences(),
-        [this](const auto& parameters, const auto& settled) {
-          return fits_.fit_rivals(accepted_.parameters(parameters), settled);
-        },
-        candidates);
-    for (const Candidate& candidate : candidates) now.trials.push_back(candidate.trial);
-    if (!is_confirmed(now)) {
+    const auto unconfirmed =
+        std::stable_partition(candidates.begin(), candidates.end(),
+                              [&](const Candidate& candidate) { return is_confirmed(candidate.trial, now); });
+    std::vector<Candidate> others(std::make_move_iterator(unconfirmed),
+                                  std::make_move_iterator(candidates.end()));
+    candidates.erase(unconfirmed, candidates.end());
+    if (!candidates.empty()) choose(candidates, step);
+    for (const auto* some : {&candidates, &others})
+      for (const Candidate& candidate : *some) now.trials.push_back(candidate.trial);
+    if (candidates.empty()) {
       result_.remarks.push_back(
           fmt::format("{} was suspected (p = {:.2g}), but no fit to fresh light confirms it",
                       text_of(now.trials.front().suspect), now.scores.p_value));
@@ -187,22 +184,39 @@ class Diagnoser {
     return true;
   }
 
+  // The best comes first.
+  void choose(std::vector<Candidate>& candidates, int step) {
+    const double from = begin(step), to = begin(step + 1);
+    stages_.begin(from + (to - from) * 0.8, to, "which of them is missing");
+    hold_contest(
+        base_, judge_->noise_of_differences(),
+        [this](const auto& parameters, const auto& settled) {
+          return fits_.fit_rivals(accepted_.parameters(parameters), settled);
+        },
+        candidates);
+  }
+
   std::vector<Candidate> fit_leading(const DiagnosisStep& now, int step) {
     std::vector<Candidate> candidates;
     std::size_t effects = 0;
+    bool leader_is_confirmed = false;
     const double from = begin(step), length = begin(step + 1) - from;
+    const EffectScore& leader = now.scores.effects.front();
     for (const EffectScore& score : now.scores.effects) {
       const Score& suspect = score.best;
-      if (!leads(score, now.scores) || effects == most_trials || accepted_.has(suspect.suspect) ||
+      if (!leads(score, leader) || effects == most_trials || accepted_.has(suspect.suspect) ||
           is_more_of_accepted(score, now.scores))
         continue;
+      // Others have looks of their own once the leader is in the model.
+      if (leader_is_confirmed && !is_alternative(score, leader)) continue;
       const double done = 0.4 + 0.4 * static_cast<double>(effects++) / most_trials;
       stages_.begin(from + length * done, from + length * (done + 0.13),
                     "fitting " + text_of(suspect.suspect));
       add_fitted(suspect, candidates);
+      if (&score != &leader) continue;
+      leader_is_confirmed = !candidates.empty() && is_confirmed(candidates.front().trial, now);
       // The leader's place, too, is only the best of those that were tried.
-      if (&score == &now.scores.effects.front() && score.elsewhere &&
-          !accepted_.has(score.elsewhere->suspect))
+      if (score.elsewhere && !accepted_.has(score.elsewhere->suspect))
         add_fitted(*score.elsewhere, candidates);
     }
     return candidates;
@@ -224,7 +238,8 @@ class Diagnoser {
     return accepted_.has(scores.effects.front().best.suspect) && effect.likeness > alike;
   }
 
-  // `best`: chi-square of the best so far. A fit that stays far behind it need not go on.
+  // `best`: chi-square of the best so far. A fit that stays far behind it, or what was promised, need not go
+  // on.
   Candidate fitted(const Score& score, double best) const {
     Candidate candidate;
     Trial& trial = candidate.trial;
@@ -233,8 +248,11 @@ class Diagnoser {
     const auto chi_square = [&](const IceFit& fit) {
       return chi_square_of(trial.parameters, fit, accepted_.parameter_count(), base_);
     };
-    candidate.fit = fits_.fit(accepted_.parameters(trial.parameters),
-                              [&](const IceFit& fit) { return chi_square(fit) < hopeless_share * best; });
+    const double promised = hopeless_share_of_promise * 2 * score.gain;
+    candidate.fit = fits_.fit(accepted_.parameters(trial.parameters), [&](const IceFit& fit) {
+      const double share = fit.rounds > 2 ? hopeless_share_later : hopeless_share;
+      return chi_square(fit) < std::max(share * best, promised);
+    });
     trial.neg_llh = neg_llh_of_all(with_parameters(base_, candidate.fit.parameters, candidate.fit.numbers));
     trial.chi_square = chi_square(candidate.fit);
     for (std::size_t i = 0; i < trial.parameters.size(); ++i) {
@@ -248,20 +266,24 @@ class Diagnoser {
   // The score chose the best of many suspects, and of noisy slopes: fresh light has to show a good part of
   // it, in the fit or, since chi-squares about the model without the effect are short of what it gains where
   // its slopes change on the way, in what it gains.
-  bool is_confirmed(const DiagnosisStep& now) const {
+  bool is_confirmed(const Trial& trial, const DiagnosisStep& now) {
     constexpr double by_chance = 0.01;
-    const Trial& best = now.trials.front();
-    if (chi_square_probability(best.chi_square, static_cast<double>(best.parameters.size())) > by_chance)
+    if (chi_square_probability(trial.chi_square, static_cast<double>(trial.parameters.size())) > by_chance)
       return false;
-    const double wanted = confirmed_share * score_of_winner(now).best.gain;
-    return best.chi_square / 2 > wanted ||
-           neg_llh_of_all(accepted_.model()) - best.neg_llh > wanted + 2 * judge_->noise_of_differences();
+    const double wanted = confirmed_share * score_of(trial, now).best.gain;
+    return trial.chi_square / 2 > wanted ||
+           neg_llh_so_far() - trial.neg_llh > wanted + 2 * judge_->noise_of_differences();
   }
   // Every trial is of an effect that has a score.
-  static const EffectScore& score_of_winner(const DiagnosisStep& now) {
-    const std::string& winner = now.trials.front().suspect.effect;
-    return *std::find_if(now.scores.effects.begin(), now.scores.effects.end(),
-                         [&](const EffectScore& score) { return score.best.suspect.effect == winner; });
+  static const EffectScore& score_of(const Trial& trial, const DiagnosisStep& now) {
+    return *std::find_if(now.scores.effects.begin(), now.scores.effects.end(), [&](const EffectScore& score) {
+      return score.best.suspect.effect == trial.suspect.effect;
+    });
+  }
+  // Of the model with all that was accepted before this step.
+  double neg_llh_so_far() {
+    if (!neg_llh_so_far_) neg_llh_so_far_ = neg_llh_of_all(accepted_.model());
+    return *neg_llh_so_far_;
   }
 
   void accept(DiagnosisStep& now, const IceFit& fit) {
@@ -310,7 +332,7 @@ class Diagnoser {
       if (trial.suspect.effect == effect) return lost_narrowly(trial);  // fits decide where there are some
     // Likeness is known to the leader of the scores: who is like the leader, as the winner is, is alike.
     const EffectScore& leader = now.scores.effects.front();
-    return is_inseparable(score_of_winner(now), leader) && is_inseparable(other, leader);
+    return is_inseparable(score_of(now.trials.front(), now), leader) && is_inseparable(other, leader);
   }
 
   // A new effect may explain an earlier one away.
@@ -463,6 +485,7 @@ class Diagnoser {
   std::optional<ModelJudge> judge_;
   EffectFits fits_;
   AcceptedEffects accepted_;
+  std::optional<double> neg_llh_so_far_;
   std::vector<Separation> separations_;  // of the last look's leading effects, each from each other
   Diagnosis result_;
 };

@@ -11,7 +11,7 @@ namespace {
 constexpr int rounds_of_fits = 4, rounds_of_layers = 5, rounds_of_rivals = 5;
 constexpr double light_of_pairs = 0.5;  // of fits, in units of a run's own simulation
 constexpr double light_of_first_round = 0.4;
-constexpr double light_of_folds = 4;  // in units of other fits'
+constexpr double light_of_folds = 3;  // in units of other fits'
 // Rivals are alike. Of each run, at least so many hits, or as many as these times the brightest run's: with
 // dim data their own noise decides.
 constexpr double hits_of_rivals = 6e4, light_of_rivals = 3;

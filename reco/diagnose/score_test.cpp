@@ -324,16 +324,6 @@ VectorXd ScoreTester::difference(const Score& score, const std::string& other) c
   return spread_over_columns(score.suspect, score.amplitudes, imitated.size()) - imitated;
 }
 
-bool is_inseparable(const EffectScore& effect, const EffectScore& first) {
-  constexpr double same = 0.9, much = 0.5;  // likeness
-  constexpr double undecided = 3;           // differences of ln p
-  // What could imitate nearly all of it would explain the data nearly as well: likeness is an estimate, too.
-  constexpr double comparable = 0.5;  // gain
-  const bool explains = effect.best.gain >= comparable * first.best.gain;
-  return (effect.likeness > same && explains) ||
-         (effect.likeness > much && effect.ln_p - first.ln_p < undecided);
-}
-
 double ln_tail_probability(double surprise, const std::vector<double>& drawn) {
   return ln_probability(surprise, ln_number(drawn));
 }

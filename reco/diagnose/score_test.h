@@ -44,10 +44,6 @@ struct ScoreTest {
   double p_value = 1;  // of the first, for everything tried
 };
 
-// Whether the data cannot tell this effect from the first in the ranking: what they change is the same light
-// and it gains half as much, or much of it and both may well be what is missing.
-bool is_inseparable(const EffectScore& effect, const EffectScore& first);
-
 // A suspect with what its test needs.
 struct TestedSuspect {
   const Suspect* suspect;

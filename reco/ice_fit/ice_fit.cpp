@@ -63,7 +63,6 @@ class Fit {
     look_first();
     for (round_ = 1; round_ <= options_.most_rounds && !fit_.converged && !is_settled(); ++round_)
       one_round();
-    fit_.rounds = round_ - 1;
     if (options_.judged) judge();
     fit_.photons = scores_.propagated();
     return std::move(fit_);
@@ -144,6 +143,7 @@ class Fit {
     scores_.step_nuisances(solution.step, count());
     fit_.covariance = solution.covariance;
     fit_.light_errors = solution.light_errors;
+    fit_.rounds = round_;
     const bool small = size_of(solution).is_small();
     fit_.converged = small && small_before_;
     small_before_ = small;

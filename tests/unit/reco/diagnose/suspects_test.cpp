@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reco/diagnose/rivals.h"
 #include "reco/diagnose/score_test.h"
 
 namespace floe::test {
@@ -24,19 +25,34 @@ TEST(Probabilities, AreStandardDeviationsOfAGaussian) {
   for (const double sigmas : {0.5, 3.0, 12.0, 80.0}) EXPECT_NEAR(sigmas_of(ln_p_of(sigmas)), sigmas, 1e-9);
 }
 
+EffectScore score(double likeness, double ln_p, double gain = 30) {
+  EffectScore effect;
+  effect.likeness = likeness, effect.ln_p = ln_p, effect.best.gain = gain;
+  return effect;
+}
+
 // Alike, or half alike and as probable.
-TEST(Scores, AreInseparableWhereBothMayBeWhatIsMissing) {
-  const auto score = [](double likeness, double ln_p, double gain = 30) {
-    EffectScore effect;
-    effect.likeness = likeness, effect.ln_p = ln_p, effect.best.gain = gain;
-    return effect;
-  };
+TEST(Rivals, AreInseparableWhereBothMayBeWhatIsMissing) {
   const EffectScore first = score(1, -20);
   EXPECT_TRUE(is_inseparable(score(0.95, -5), first));
   EXPECT_FALSE(is_inseparable(score(1, -5, 12), first));  // the data have told them apart
   EXPECT_TRUE(is_inseparable(score(0.7, -18), first));
   EXPECT_FALSE(is_inseparable(score(0.7, -12), first));
   EXPECT_FALSE(is_inseparable(score(0.2, -20), first));  // another effect, as strong
+}
+
+// A third of the gain that no chance explains is worth a fit; in the place of a leader that fits, only what
+// is like it or as strong.
+TEST(Rivals, AreFittedWhereTheyMayBeWhatIsMissing) {
+  const EffectScore first = score(1, -20);
+  EXPECT_TRUE(leads(first, first));
+  EXPECT_TRUE(leads(score(0.2, -8, 12), first));
+  EXPECT_FALSE(leads(score(0.2, -8, 9), first));
+  EXPECT_FALSE(leads(score(0.2, -2, 12), first));           // some place gains as much by chance
+  EXPECT_FALSE(leads(score(1, -8, 4), score(1, -8, 4.5)));  // too little to be fitted
+  EXPECT_TRUE(is_alternative(score(0.6, -8, 12), first));
+  EXPECT_TRUE(is_alternative(score(0.2, -16, 25), first));
+  EXPECT_FALSE(is_alternative(score(0.4, -12, 20), first));
 }
 
 // Of exponential gains every probability is known.

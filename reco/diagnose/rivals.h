@@ -1,0 +1,20 @@
+// What the score test says of an effect beside the first in its ranking: worth a fit, an alternative, the
+// same as far as these data know? docs/theory/diagnose.md has the reasons.
+#pragma once
+
+#include "reco/diagnose/score_test.h"
+
+namespace floe {
+
+// Whether it might be what is missing: it gains a good part of what the first does, and not by chance.
+bool leads(const EffectScore& effect, const EffectScore& first);
+
+// Whether it could stand in the place of the first, once the fit of that one has confirmed it: it changes
+// much of the same light, or gains nearly as much.
+bool is_alternative(const EffectScore& effect, const EffectScore& first);
+
+// Whether the data cannot tell this effect from the first in the ranking: what they change is the same light
+// and it gains half as much, or much of it and both may well be what is missing.
+bool is_inseparable(const EffectScore& effect, const EffectScore& first);
+
+}  // namespace floe
