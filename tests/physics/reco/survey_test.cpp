@@ -8,7 +8,9 @@
 #include <cmath>
 #include <limits>
 
+#include "reco/diagnose/hidden_draws.h"
 #include "reco/diagnose/score_test.h"
+#include "reco/diagnose/seen_above.h"
 #include "reco/diagnose/separation.h"
 #include "reco/diagnose/suspects.h"
 #include "reco/diagnose/trial_light.h"
@@ -221,7 +223,10 @@ class ASurvey : public OfOneFlasher {
   ASurvey() {
     for (const char* name : {"absorption-scale", "scattering-scale", "angular-acceptance", "flow-azimuth"})
       parameters_.push_back(effect_parameter(name, model_));
-    survey_ = survey_data(model_, data_, look_, {.parameters = parameters_, .pair_light = 1}, settings_);
+    // The same for all tests.
+    static const Survey survey =
+        survey_data(model_, data_, look_, {.parameters = parameters_, .pair_light = 1}, settings_);
+    survey_ = survey;
   }
   // The gap that light of this model leaves, without most of its noise: random numbers are the base's.
   Eigen::VectorXd gap_of_light(const Model& model) const {
@@ -258,7 +263,8 @@ class ASurvey : public OfOneFlasher {
   void expect_found(const std::vector<std::string>& settings, Eigen::Index column, double change) const {
     ModelRequest changed;
     for (const std::string& text : settings) changed.with.push_back(parse_effect_setting(text));
-    const double found = (gap_of_light(load_model(changed)) - gap_of_light(model_))(column),
+    static const Eigen::VectorXd unchanged = gap_of_light(model_);
+    const double found = (gap_of_light(load_model(changed)) - unchanged)(column),
                  expected = survey_.information(column, column) * change,
                  noise = std::sqrt(2 / more_ * survey_.noise(column, column));
     EXPECT_GT(std::abs(expected), 6 * noise) << "too small a change to be seen";
@@ -379,6 +385,68 @@ TEST_F(ASurvey, AsksAtOtherPlacesThatExplainNearlyAsMuch) {
   EXPECT_FALSE(is_same_place(both.elsewhere->suspect.place, both.best.suspect.place));
   EXPECT_GT(both.elsewhere->gain, 0.5 * both.best.gain);
   EXPECT_LE(both.elsewhere->gain, both.best.gain);
+}
+
+// What blind trials hide has the expected gain of the significance that was drawn, within the wanted range,
+// at any of its places, and is a change of the model.
+TEST_F(ASurvey, HidesEffectsAsStrongAsWanted) {
+  const std::vector<int> strings{36, brightest_other_string()};
+  std::vector<Suspect> suspects;
+  for (const int string : strings) {
+    const auto at = static_cast<int>(column(SurveyColumn::Kind::string_efficiency, string, 0));
+    suspects.push_back({"string-efficiency", {{"string", string}}, {{{at, 1.0}}}});
+  }
+  const ScoreTester tester(survey_, suspects, parameters_, Draws{50, 1});
+  const SignificanceRange wanted{5, 8};
+  std::vector<const TestedSuspect*> places;
+  for (const TestedSuspect& suspect : tester.suspects()) places.push_back(&suspect);
+  std::mt19937_64 random(1);
+  constexpr int draws = 60;
+  int ups = 0;
+  std::map<double, int> times;
+  for (int i = 0; i < draws; ++i) {
+    const std::optional<Hidden> hidden = draw_hidden(places, tester, model_, wanted, random);
+    ASSERT_TRUE(hidden.has_value());
+    const double significance = hidden->effect.significance, string = hidden->effect.place.at("string");
+    EXPECT_GE(significance, wanted.least);
+    EXPECT_LE(significance, wanted.most);
+    const TestedSuspect& place = *places[string == strings[0] ? 0 : 1];
+    ASSERT_EQ(hidden->numbers.size(), 1u);
+    const double change = hidden->numbers[0] - 1, gain = tester.gain_of_significance(place, significance);
+    EXPECT_NEAR(place.expected_gain(Eigen::VectorXd::Constant(1, change)), gain, 0.1 * gain);
+    EXPECT_NE(difference(model_, hidden->model), ModelDifference{});
+    ++times[string], ups += change > 0;
+  }
+  EXPECT_EQ(times.size(), 2u);
+  // Up or down, by a fair coin where both are within limits.
+  EXPECT_NEAR(ups, draws / 2.0, 4 * std::sqrt(draws / 4.0));
+
+  // A gain that no efficiency within its limits has.
+  EXPECT_FALSE(draw_hidden(places, tester, model_, {500, 500}, random).has_value());
+}
+
+// Of light with the change that is said to be seen half of the time, half is named.
+TEST_F(ASurvey, NamesEveryOtherTimeWhatIsJustSeen) {
+  constexpr double alpha = 0.01;
+  const std::vector<Suspect> suspects{{"absorption-scale", {}, {{{0, 1.0}}}}};
+  const ScoreTester tester(survey_, suspects, parameters_, Draws{400, 1});
+  const std::vector<SeenAbove> seen = seen_above(tester, model_, alpha, 0);
+  ASSERT_EQ(seen.size(), 1u);
+  EXPECT_EQ(seen[0].parameter, "absorption-scale.factor");
+  const SurveyRun& run = survey_.runs[0];
+  const Eigen::ArrayXd slope = (run.halves[0].col(0) + run.halves[1].col(0)).array() / 2;
+  constexpr int draws = 400;
+  int named = 0;
+  for (std::uint64_t d = 0; d < draws; ++d) {
+    SurveyCounts counts = drawn_counts(survey_, 3, d);
+    counts[0].data.array() *= 1 + seen[0].change * slope;
+    named += tester.test(counts, 0).p_value < alpha;
+  }
+  // Half, but for what 400 draws know of a probability of 1% (a tenth of the gain).
+  EXPECT_NEAR(named / double(draws), 0.5, 0.1 + 4 * std::sqrt(0.25 / draws));
+  // The floor is a change of the light: where it is larger, it is the limit.
+  const double size = tester.suspects()[0].size(Eigen::VectorXd::Ones(1));
+  EXPECT_DOUBLE_EQ(seen_above(tester, model_, alpha, 1)[0].change, 1 / size);
 }
 
 // Simulations of one model differ in how well they fit the same data, by as much as is said.
