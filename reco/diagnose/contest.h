@@ -31,6 +31,7 @@ struct Trial {
 struct Candidate {
   Trial trial;
   IceFit fit;
+  double left = 0;  // of -ln L, above that of a true model: at most, by three standard deviations
 };
 
 // Fits these beside all that is in the model already, which come first in the result, until the fit has

@@ -198,8 +198,9 @@ class Diagnoser {
 
   std::vector<Candidate> fit_leading(const DiagnosisStep& now, int step) {
     std::vector<Candidate> candidates;
+    candidates.reserve(most_trials + 1);  // and the leader at another place
     std::size_t effects = 0;
-    bool leader_is_confirmed = false;
+    const Candidate* confirmed = nullptr;  // the leader
     const double from = begin(step), length = begin(step + 1) - from;
     const EffectScore& leader = now.scores.effects.front();
     for (const EffectScore& score : now.scores.effects) {
@@ -208,13 +209,15 @@ class Diagnoser {
           is_more_of_accepted(score, now.scores))
         continue;
       // Others have looks of their own once the leader is in the model.
-      if (leader_is_confirmed && !is_alternative(score, leader)) continue;
+      if (confirmed &&
+          !is_alternative(score, leader, neg_llh_so_far() - confirmed->trial.neg_llh, confirmed->left))
+        continue;
       const double done = 0.4 + 0.4 * static_cast<double>(effects++) / most_trials;
       stages_.begin(from + length * done, from + length * (done + 0.13),
                     "fitting " + text_of(suspect.suspect));
       add_fitted(suspect, candidates);
       if (&score != &leader) continue;
-      leader_is_confirmed = !candidates.empty() && is_confirmed(candidates.front().trial, now);
+      if (!candidates.empty() && is_confirmed(candidates.front().trial, now)) confirmed = &candidates.front();
       // The leader's place, too, is only the best of those that were tried.
       if (score.elsewhere && !accepted_.has(score.elsewhere->suspect))
         add_fitted(*score.elsewhere, candidates);
@@ -253,7 +256,7 @@ class Diagnoser {
       const double share = fit.rounds > 2 ? hopeless_share_later : hopeless_share;
       return chi_square(fit) < std::max(share * best, promised);
     });
-    trial.neg_llh = neg_llh_of_all(with_parameters(base_, candidate.fit.parameters, candidate.fit.numbers));
+    judge(with_parameters(base_, candidate.fit.parameters, candidate.fit.numbers), candidate);
     trial.chi_square = chi_square(candidate.fit);
     for (std::size_t i = 0; i < trial.parameters.size(); ++i) {
       const std::size_t at = accepted_.parameter_count() + i;
@@ -261,6 +264,18 @@ class Diagnoser {
       trial.errors.push_back(candidate.fit.error(at));
     }
     return candidate;
+  }
+
+  void judge(const Model& model, Candidate& candidate) const {
+    constexpr double at_most = 3;  // standard deviations
+    double above = 0, variance = 0;
+    for (std::size_t r = 0; r < data_.runs.size(); ++r) {
+      const ModelJudge::Fit fit = judge_->judge(model, r);
+      candidate.trial.neg_llh += fit.measured.neg_llh;
+      above += fit.measured.neg_llh - fit.expected;
+      variance += fit.scatter * fit.scatter;
+    }
+    candidate.left = std::max(0.0, above) + at_most * std::sqrt(variance);
   }
 
   // The score chose the best of many suspects, and of noisy slopes: fresh light has to show a good part of
@@ -456,7 +471,7 @@ class Diagnoser {
   // With several effects the question costs a fit and a measurement. The answer is known where the last one
   // gains so much in the fit that a small part of it is more than the noise of measured gaps.
   bool is_past_asking(const HeldOutGaps& gaps) const {
-    constexpr double small_part = 0.2;
+    constexpr double small_part = 1.0 / 3;
     const std::size_t effects = accepted_.effects().size();
     if (effects == 1 || result_.gap_after > result_.gap_before) return false;
     double gained = 0;

@@ -9,9 +9,10 @@ namespace floe {
 // Whether it might be what is missing: it gains a good part of what the first does, and not by chance.
 bool leads(const EffectScore& effect, const EffectScore& first);
 
-// Whether it could stand in the place of the first, once the fit of that one has confirmed it: it changes
-// much of the same light, or gains nearly as much.
-bool is_alternative(const EffectScore& effect, const EffectScore& first);
+// Whether it could stand in the place of the first, once the fit of that one has gained so much -ln L and may
+// have left so much at most: if this were true, a false leader would gain the square of their likeness of
+// what there is to gain, and leave the rest. One that scores nearly as well always could.
+bool is_alternative(const EffectScore& effect, const EffectScore& first, double gained, double left);
 
 // Whether the data cannot tell this effect from the first in the ranking: what they change is the same light
 // and it gains half as much, or much of it and both may well be what is missing.

@@ -50,9 +50,16 @@ TEST(Rivals, AreFittedWhereTheyMayBeWhatIsMissing) {
   EXPECT_FALSE(leads(score(0.2, -8, 9), first));
   EXPECT_FALSE(leads(score(0.2, -2, 12), first));           // some place gains as much by chance
   EXPECT_FALSE(leads(score(1, -8, 4), score(1, -8, 4.5)));  // too little to be fitted
-  EXPECT_TRUE(is_alternative(score(0.6, -8, 12), first));
-  EXPECT_TRUE(is_alternative(score(0.2, -16, 25), first));
-  EXPECT_FALSE(is_alternative(score(0.4, -12, 20), first));
+}
+
+// If the rival were true, a leader of likeness 0.8 would gain 64% and leave 36%: 169 of 300 gained.
+TEST(Rivals, AreAlternativesWhereTheLeaderMayHaveLeftWhatTheyWould) {
+  const EffectScore first = score(1, -20);
+  EXPECT_FALSE(is_alternative(score(0.8, -8, 12), first, 300, 160));
+  EXPECT_TRUE(is_alternative(score(0.8, -8, 12), first, 300, 170));
+  EXPECT_FALSE(is_alternative(score(0, -8, 12), first, 300, 1e6));  // would leave all of it
+  EXPECT_TRUE(is_alternative(score(1, -8, 12), first, 300, 0));     // would leave nothing
+  EXPECT_TRUE(is_alternative(score(0, -16, 25), first, 300, 0));    // scores nearly as well
 }
 
 // Of exponential gains every probability is known.
