@@ -14,7 +14,8 @@ bool leads(const EffectScore& effect, const EffectScore& first) {
 bool is_alternative(const EffectScore& effect, const EffectScore& first, double gained, double left) {
   constexpr double nearly = 0.75;
   const double explained = effect.likeness * effect.likeness;
-  return effect.best.gain >= nearly * first.best.gain || gained * (1 - explained) <= left * explained;
+  return is_inseparable(effect, first) || effect.best.gain >= nearly * first.best.gain ||
+         gained * (1 - explained) <= left * explained;
 }
 
 bool is_inseparable(const EffectScore& effect, const EffectScore& first) {

@@ -41,8 +41,7 @@ TEST(Rivals, AreInseparableWhereBothMayBeWhatIsMissing) {
   EXPECT_FALSE(is_inseparable(score(0.2, -20), first));  // another effect, as strong
 }
 
-// A third of the gain that no chance explains is worth a fit; in the place of a leader that fits, only what
-// is like it or as strong.
+// A third of the gain that no chance explains is worth a fit.
 TEST(Rivals, AreFittedWhereTheyMayBeWhatIsMissing) {
   const EffectScore first = score(1, -20);
   EXPECT_TRUE(leads(first, first));
@@ -60,6 +59,7 @@ TEST(Rivals, AreAlternativesWhereTheLeaderMayHaveLeftWhatTheyWould) {
   EXPECT_FALSE(is_alternative(score(0, -8, 12), first, 300, 1e6));  // would leave all of it
   EXPECT_TRUE(is_alternative(score(1, -8, 12), first, 300, 0));     // would leave nothing
   EXPECT_TRUE(is_alternative(score(0, -16, 25), first, 300, 0));    // scores nearly as well
+  EXPECT_TRUE(is_alternative(score(0.92, -8, 16), first, 1e4, 1));  // inseparable until fits decide
 }
 
 // Of exponential gains every probability is known.
