@@ -268,14 +268,11 @@ class Diagnoser {
 
   void judge(const Model& model, Candidate& candidate) const {
     constexpr double at_most = 3;  // standard deviations
-    double above = 0, variance = 0;
-    for (std::size_t r = 0; r < data_.runs.size(); ++r) {
-      const ModelJudge::Fit fit = judge_->judge(model, r);
-      candidate.trial.neg_llh += fit.measured.neg_llh;
-      above += fit.measured.neg_llh - fit.expected;
-      variance += fit.scatter * fit.scatter;
-    }
-    candidate.left = std::max(0.0, above) + at_most * std::sqrt(variance);
+    std::vector<ModelJudge::Fit> fits;
+    for (std::size_t r = 0; r < data_.runs.size(); ++r) fits.push_back(judge_->judge(model, r));
+    candidate.trial.neg_llh = neg_llh_of(fits);
+    const ExpectedFit right = right_fit(fits);
+    candidate.left = std::max(0.0, candidate.trial.neg_llh - right.mean) + at_most * right.scatter;
   }
 
   // The score chose the best of many suspects, and of noisy slopes: fresh light has to show a good part of

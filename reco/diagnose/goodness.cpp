@@ -33,6 +33,23 @@ ExpectedFit expected_fit(const Survey& survey, const Draws& draws) {
   return fit;
 }
 
+double neg_llh_of(const std::vector<ModelJudge::Fit>& fits) {
+  double sum = 0;
+  for (const ModelJudge::Fit& fit : fits) sum += fit.measured.neg_llh;
+  return sum;
+}
+
+ExpectedFit right_fit(const std::vector<ModelJudge::Fit>& fits) {
+  double variance = 0;
+  ExpectedFit right;
+  for (const ModelJudge::Fit& fit : fits) {
+    right.mean += fit.expected;
+    variance += fit.scatter * fit.scatter;
+  }
+  right.scatter = std::sqrt(variance);
+  return right;
+}
+
 double probability_of(double neg_llh, const ExpectedFit& right) {
   const double variance = right.scatter * right.scatter;
   return chi_square_probability(2 * neg_llh * right.mean / variance, 2 * right.mean * right.mean / variance);

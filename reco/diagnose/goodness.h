@@ -1,7 +1,10 @@
 // How well counts of all runs fit a survey's model, against what they would if nothing were missing.
 #pragma once
 
+#include <vector>
+
 #include "reco/diagnose/survey.h"
+#include "reco/ice_fit/model_judge.h"
 
 namespace floe {
 
@@ -14,6 +17,10 @@ struct ExpectedFit {
   double mean = 0, scatter = 0;
 };
 ExpectedFit expected_fit(const Survey& survey, const Draws& draws);
+
+// The same of runs that were judged one by one.
+double neg_llh_of(const std::vector<ModelJudge::Fit>& fits);
+ExpectedFit right_fit(const std::vector<ModelJudge::Fit>& fits);
 
 // Of a -ln L at least as large, by chance: twice it is nearly a chi-square, and becomes one of the same mean
 // and deviation when it is scaled.

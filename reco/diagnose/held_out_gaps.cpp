@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "data/base/error.h"
+#include "reco/diagnose/goodness.h"
 #include "reco/diagnose/suspects.h"
 
 namespace floe {
@@ -15,23 +16,6 @@ namespace {
 
 double gap(const ModelJudge::Fit& fit) {
   return 2 * (fit.measured.neg_llh - fit.expected);
-}
-
-// Of all runs together.
-double neg_llh_of(const std::vector<ModelJudge::Fit>& fits) {
-  double sum = 0;
-  for (const ModelJudge::Fit& fit : fits) sum += fit.measured.neg_llh;
-  return sum;
-}
-ExpectedFit right_fit(const std::vector<ModelJudge::Fit>& fits) {
-  double variance = 0;
-  ExpectedFit right;
-  for (const ModelJudge::Fit& fit : fits) {
-    right.mean += fit.expected;
-    variance += fit.scatter * fit.scatter;
-  }
-  right.scatter = std::sqrt(variance);
-  return right;
 }
 
 // What only the runs that are held out tell of is not known: a prior, as wide as a large change, leaves it

@@ -7,6 +7,9 @@
 #include <Eigen/QR>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <optional>
+#include <random>
 
 #include "reco/diagnose/hidden_draws.h"
 #include "reco/diagnose/score_test.h"
