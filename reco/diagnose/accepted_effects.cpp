@@ -51,40 +51,44 @@ void AcceptedEffects::add(NamedEffect effect, const IceFit& fit) {
   take(fit);
 }
 
-std::vector<IceParameter> AcceptedEffects::parameters_by_layers(LayerFamily family,
+std::vector<IceParameter> AcceptedEffects::parameters_by_layers(std::size_t effect, LayerFamily family,
                                                                 const DepthRange& range) const {
   constexpr double least = 0.1;  // layers are factors, and begin at one that can grow
   // Of ln(strength): grains change slowly with depth. In SpiceBFR v2 layers of 110 m that follow one another
   // differ by 0.2 (rms), which is within the smoothness prior of half of this.
   constexpr double large = 0.5;
-  const std::size_t first = first_parameter(effects_.size() - 1);
-  std::vector<IceParameter> all = parameters();
-  all.resize(first);
-  for (IceParameter& layer : layer_parameters(family, range)) {
-    layer.start = std::log(std::max(least, numbers_[first]));
+  const std::size_t at = first_parameter(effect);
+  std::vector<IceParameter> layers = layer_parameters(family, range);
+  for (IceParameter& layer : layers) {
+    layer.start = std::log(std::max(least, numbers_[at]));
     layer.scale = large;
-    all.push_back(std::move(layer));
   }
+  std::vector<IceParameter> all = parameters();
+  const auto place = all.erase(all.begin() + static_cast<std::ptrdiff_t>(at));
+  all.insert(place, layers.begin(), layers.end());
   return all;
 }
 
-double AcceptedEffects::spread_of_layers(const IceFit& fit) const {
-  const std::size_t first = first_parameter(effects_.size() - 1);
-  const auto at = static_cast<Eigen::Index>(first);
-  const auto size = static_cast<Eigen::Index>(fit.numbers.size()) - at;
+double AcceptedEffects::spread_of_layers(std::size_t effect, const IceFit& fit) const {
+  const std::size_t first = first_parameter(effect), count = layer_count(fit);
+  const auto at = static_cast<Eigen::Index>(first), size = static_cast<Eigen::Index>(count);
   const Eigen::VectorXd weights =
       fit.covariance.block(at, at, size, size).ldlt().solve(Eigen::VectorXd::Ones(size));
   double mean = 0;
   for (Eigen::Index i = 0; i < size; ++i)
     mean += weights(i) / weights.sum() * fit.numbers[first + static_cast<std::size_t>(i)];
-  return fit.distance(first, std::vector<double>(static_cast<std::size_t>(size), mean));
+  return fit.distance(first, std::vector<double>(count, mean));
 }
 
-void AcceptedEffects::take_layers(const IceFit& fit) {
-  const std::size_t first = first_parameter(effects_.size() - 1);
-  effects_.back().parameters.assign(fit.parameters.begin() + static_cast<std::ptrdiff_t>(first),
-                                    fit.parameters.end());
+void AcceptedEffects::take_layers(std::size_t effect, const IceFit& fit) {
+  const auto first = fit.parameters.begin() + static_cast<std::ptrdiff_t>(first_parameter(effect));
+  effects_[effect].parameters.assign(first, first + static_cast<std::ptrdiff_t>(layer_count(fit)));
   take(fit);
+}
+
+// Of a fit with layers in the place of one parameter.
+std::size_t AcceptedEffects::layer_count(const IceFit& fit) const {
+  return fit.parameters.size() + 1 - parameters_.size();
 }
 
 std::optional<AcceptedEffects::Faded> AcceptedEffects::faded() const {

@@ -48,11 +48,12 @@ class AcceptedEffects {
   // Of parameters(): values, errors, significances and the places of bands follow it.
   void take(const IceFit& fit);
 
-  // The same with the last effect, of one parameter, layer by layer instead.
-  std::vector<IceParameter> parameters_by_layers(LayerFamily family, const DepthRange& range) const;
-  // Chi-square of the last effect's layers about what is best for all of them. `fit`: of those parameters.
-  double spread_of_layers(const IceFit& fit) const;
-  void take_layers(const IceFit& fit);
+  // The same with an effect of one parameter layer by layer instead.
+  std::vector<IceParameter> parameters_by_layers(std::size_t effect, LayerFamily family,
+                                                 const DepthRange& range) const;
+  // Chi-square of the effect's layers about what is best for all of them. `fit`: of those parameters.
+  double spread_of_layers(std::size_t effect, const IceFit& fit) const;
+  void take_layers(std::size_t effect, const IceFit& fit);
 
   // An effect that is hardly there any more now that the last one is: that one may have explained it away.
   struct Faded {
@@ -67,6 +68,7 @@ class AcceptedEffects {
 
  private:
   std::size_t first_parameter(std::size_t effect) const;
+  std::size_t layer_count(const IceFit& fit) const;
   void take_mean(const IceFit& fit, std::size_t first, NamedEffect& effect) const;
 
   const Model& base_;

@@ -317,20 +317,23 @@ class Diagnoser {
     accepted_.add(std::move(named), fit);
     now.added = accepted_.effects().size() - 1;
     retest();
-    if (!accepted_.empty() && accepted_.effects().back().suspect.effect == "birefringence")
-      refine_by_layers();
+    // What else is missing hides what layers differ in: asked again with every effect that comes in.
+    for (std::size_t e = 0; e < accepted_.effects().size(); ++e)
+      if (accepted_.effects()[e].suspect.effect == "birefringence" && !accepted_.effects()[e].mean)
+        refine_by_layers(e);
   }
 
   // Grains differ from layer to layer, and with them the strength of birefringence (arXiv:2107.08692).
-  void refine_by_layers() {
+  void refine_by_layers(std::size_t birefringence) {
     const DepthRange range = layers_of(flasher_depths(data_, *base_.detector), data_.runs.size());
     if (range.groups < 2) return;
     stages_.begin(stages_.from(), stages_.to(), "fitting birefringence layer by layer");
     try {
       const IceFit layered =
-          fits_.fit_layers(accepted_.parameters_by_layers(LayerFamily::birefringence, range));
+          fits_.fit_layers(accepted_.parameters_by_layers(birefringence, LayerFamily::birefringence, range));
       const double least_spread = 2 * (range.groups - 1);
-      if (accepted_.spread_of_layers(layered) >= least_spread) accepted_.take_layers(layered);
+      if (accepted_.spread_of_layers(birefringence, layered) >= least_spread)
+        accepted_.take_layers(birefringence, layered);
     } catch (const Error&) {
       // Some layer scatters too little for so strong crystals: one strength for all stays.
     }

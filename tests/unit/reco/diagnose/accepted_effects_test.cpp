@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace floe::test {
 namespace {
 
@@ -94,6 +96,25 @@ TEST_F(Accepted, HoldSeveralStringsButOneBand) {
   // Its place is where the fit has it.
   EXPECT_EQ(accepted_.effects()[1].suspect.place.at("depth"), 1780);
   EXPECT_EQ(accepted_.effects()[1].suspect.place.at("width"), 70);
+}
+
+// What came in after birefringence may be what shows how its layers differ.
+TEST_F(Accepted, AreRefinedByLayersWhateverCameLater) {
+  add("birefringence", "strength", {0.8}, {0.05});
+  add("noise", "rate", {0.8, 700}, {0.05, 10});
+  const auto layers = accepted_.parameters_by_layers(0, LayerFamily::birefringence, {1700, 2000, 3});
+  ASSERT_EQ(layers.size(), 4u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(layers[i].start, std::log(0.8)) << i;
+  EXPECT_EQ(layers[3].name, "noise.rate");
+  // 3, 1 and 2 standard deviations from their mean, which is -0.1.
+  const IceFit fitted = fit(layers, {-0.4, 0, 0.1, 600}, {0.1, 0.1, 0.1, 10});
+  EXPECT_NEAR(accepted_.spread_of_layers(0, fitted), 9 + 1 + 4, 1e-9);
+  accepted_.take_layers(0, fitted);
+  ASSERT_EQ(accepted_.effects()[0].values.size(), 3u);
+  EXPECT_NEAR(accepted_.effects()[0].mean->value, (std::exp(-0.4) + 1 + std::exp(0.1)) / 3, 1e-9);
+  EXPECT_EQ(accepted_.effects()[1].values, (std::vector<double>{600}));
+  accepted_.drop(0);
+  EXPECT_EQ(accepted_.parameter_count(), 1u);
 }
 
 TEST_F(Accepted, GoToFloesOwnFileOnlyWhereNoOtherHoldsThem) {
