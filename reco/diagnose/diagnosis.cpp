@@ -30,8 +30,7 @@ constexpr std::size_t most_trials = 3;
 // Of the best chi-square so far, after two rounds and after more: the further a fit has come, the less it
 // catches up. And of the chi-square that the score promises.
 constexpr double hopeless_share = 0.3, hopeless_share_later = 0.7, hopeless_share_of_promise = 0.1;
-constexpr double hopeless_share_of_spread = 0.5;  // of what layers have to differ by
-constexpr double confirmed_share = 0.4;           // of the gain that a score promised, by a fit
+constexpr double confirmed_share = 0.4;  // of the gain that a score promised, by a fit
 
 void check_options(const DiagnosisOptions& options, int flashers) {
   check(static_cast<const RunSettings&>(options));
@@ -331,13 +330,10 @@ class Diagnoser {
     const DepthRange range = layers_of(flasher_depths(data_, *base_.detector), data_.runs.size());
     if (range.groups < 2) return;
     stages_.begin(stages_.from(), stages_.to(), "fitting birefringence layer by layer");
-    const double least_spread = 2 * (range.groups - 1);
     try {
-      const IceFit layered = fits_.fit_layers(
-          accepted_.parameters_by_layers(birefringence, LayerFamily::birefringence, range),
-          [&](const IceFit& fit) {
-            return accepted_.spread_of_layers(birefringence, fit) < hopeless_share_of_spread * least_spread;
-          });
+      const IceFit layered =
+          fits_.fit_layers(accepted_.parameters_by_layers(birefringence, LayerFamily::birefringence, range));
+      const double least_spread = 2 * (range.groups - 1);
       if (accepted_.spread_of_layers(birefringence, layered) >= least_spread)
         accepted_.take_layers(birefringence, layered);
     } catch (const Error&) {

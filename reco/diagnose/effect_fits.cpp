@@ -28,8 +28,8 @@ IceFit EffectFits::fit(const std::vector<IceParameter>& parameters, const Settle
   return fit(parameters, rounds_of_fits, settled);
 }
 
-IceFit EffectFits::fit_layers(const std::vector<IceParameter>& parameters, const Settled& settled) const {
-  return fit(parameters, rounds_of_layers, settled);
+IceFit EffectFits::fit_layers(const std::vector<IceParameter>& parameters) const {
+  return fit(parameters, rounds_of_layers, {});
 }
 
 // The first round and slopes from pairs have enough light.

@@ -12,7 +12,7 @@ bool leads(const EffectScore& effect, const EffectScore& first);
 // Whether it could stand in the place of the first, once the fit of that one has gained so much -ln L and may
 // have left so much at most: if this were true, a false leader would gain the square of their likeness of
 // what there is to gain, and leave the rest. One that is inseparable, or scores nearly as well, always could:
-// a fit decides.
+// a fit decides. One that scores far less is not what is missing instead, and may be missing beside it.
 bool is_alternative(const EffectScore& effect, const EffectScore& first, double gained, double left);
 
 // Whether the data cannot tell this effect from the first in the ranking: what they change is the same light

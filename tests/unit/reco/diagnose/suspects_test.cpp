@@ -54,12 +54,13 @@ TEST(Rivals, AreFittedWhereTheyMayBeWhatIsMissing) {
 // If the rival were true, a leader of likeness 0.8 would gain 64% and leave 36%: 169 of 300 gained.
 TEST(Rivals, AreAlternativesWhereTheLeaderMayHaveLeftWhatTheyWould) {
   const EffectScore first = score(1, -20);
-  EXPECT_FALSE(is_alternative(score(0.8, -8, 12), first, 300, 160));
-  EXPECT_TRUE(is_alternative(score(0.8, -8, 12), first, 300, 170));
-  EXPECT_FALSE(is_alternative(score(0, -8, 12), first, 300, 1e6));  // would leave all of it
-  EXPECT_TRUE(is_alternative(score(1, -8, 12), first, 300, 0));     // would leave nothing
-  EXPECT_TRUE(is_alternative(score(0, -16, 25), first, 300, 0));    // scores nearly as well
-  EXPECT_TRUE(is_alternative(score(0.92, -8, 16), first, 1e4, 1));  // inseparable until fits decide
+  EXPECT_FALSE(is_alternative(score(0.8, -8, 20), first, 300, 160));
+  EXPECT_TRUE(is_alternative(score(0.8, -8, 20), first, 300, 170));
+  EXPECT_FALSE(is_alternative(score(0.8, -8, 16), first, 300, 170));  // far behind
+  EXPECT_FALSE(is_alternative(score(0, -8, 20), first, 300, 1e6));    // would leave all of it
+  EXPECT_TRUE(is_alternative(score(1, -8, 12), first, 300, 0));       // the same
+  EXPECT_TRUE(is_alternative(score(0, -16, 25), first, 300, 0));      // scores nearly as well
+  EXPECT_TRUE(is_alternative(score(0.92, -8, 16), first, 1e4, 1));    // inseparable until fits decide
 }
 
 // Of exponential gains every probability is known.
