@@ -6,7 +6,7 @@ namespace floe {
 
 bool leads(const EffectScore& effect, const EffectScore& first) {
   constexpr double leading_share = 0.35, least_gain = 5;
-  constexpr double by_chance = 0.05;  // for all its places
+  constexpr double by_chance = 0.01;  // for all its places
   return effect.best.gain >= leading_share * first.best.gain && effect.best.gain > least_gain &&
          effect.ln_p < std::log(by_chance);
 }

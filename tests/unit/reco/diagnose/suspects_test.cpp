@@ -47,7 +47,7 @@ TEST(Rivals, AreFittedWhereTheyMayBeWhatIsMissing) {
   EXPECT_TRUE(leads(first, first));
   EXPECT_TRUE(leads(score(0.2, -8, 12), first));
   EXPECT_FALSE(leads(score(0.2, -8, 9), first));
-  EXPECT_FALSE(leads(score(0.2, -2, 12), first));           // some place gains as much by chance
+  EXPECT_FALSE(leads(score(0.2, -4, 12), first));           // some place gains as much by chance
   EXPECT_FALSE(leads(score(1, -8, 4), score(1, -8, 4.5)));  // too little to be fitted
 }
 
