@@ -58,7 +58,7 @@ TEST(Rivals, AreAlternativesWhereTheLeaderMayHaveLeftWhatTheyWould) {
   EXPECT_TRUE(is_alternative(score(0.8, -8, 20), first, 300, 170));
   EXPECT_FALSE(is_alternative(score(0.8, -8, 16), first, 300, 170));  // far behind
   EXPECT_FALSE(is_alternative(score(0, -8, 20), first, 300, 1e6));    // would leave all of it
-  EXPECT_TRUE(is_alternative(score(1, -8, 12), first, 300, 0));       // the same
+  EXPECT_TRUE(is_alternative(score(1, -8, 20), first, 300, 0));       // the same
   EXPECT_TRUE(is_alternative(score(0, -16, 25), first, 300, 0));      // scores nearly as well
   EXPECT_TRUE(is_alternative(score(0.92, -8, 16), first, 1e4, 1));    // inseparable until fits decide
 }
