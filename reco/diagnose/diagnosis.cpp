@@ -269,8 +269,7 @@ class Diagnoser {
   void judge(const Model& model, Candidate& candidate) const {
     // Standard deviations. Data that happen to be liked better than that tell no more of what is left.
     constexpr double at_most = 3, lucky = -1;
-    std::vector<ModelJudge::Fit> fits;
-    for (std::size_t r = 0; r < data_.runs.size(); ++r) fits.push_back(judge_->judge(model, r));
+    const std::vector<ModelJudge::Fit> fits = judge_->judge_all(model);
     candidate.trial.neg_llh = neg_llh_of(fits);
     const ExpectedFit right = right_fit(fits);
     candidate.left =

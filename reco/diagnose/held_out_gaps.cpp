@@ -40,7 +40,7 @@ HeldOutGaps::HeldOutGaps(const Model& base, const FlasherData& data, const First
       fits_(fits),
       judge_(base, data, look, settings, stream),
       held_out_(data, *base.detector, folds),
-      fits_of_base_(fits_of(base)),
+      fits_of_base_(judge_.judge_all(base)),
       right_of_base_(right_fit(fits_of_base_)) {
   for (const ModelJudge::Fit& fit : fits_of_base_) of_base_.push_back(gap(fit));
 }
@@ -81,14 +81,8 @@ double HeldOutGaps::p_of_base(double allowed) const {
 }
 
 double HeldOutGaps::p_of(const Model& model, double allowed) const {
-  const std::vector<ModelJudge::Fit> fits = fits_of(model);
+  const std::vector<ModelJudge::Fit> fits = judge_.judge_all(model);
   return probability_of(neg_llh_of(fits) - allowed, right_fit(fits));
-}
-
-std::vector<ModelJudge::Fit> HeldOutGaps::fits_of(const Model& model) const {
-  std::vector<ModelJudge::Fit> fits;
-  for (std::size_t r = 0; r < data_.runs.size(); ++r) fits.push_back(judge_.judge(model, r));
-  return fits;
 }
 
 }  // namespace floe

@@ -50,7 +50,6 @@ class HeldOutGaps {
   const std::vector<std::string>& remarks() const { return remarks_; }
 
  private:
-  std::vector<ModelJudge::Fit> fits_of(const Model& model) const;
   // By group, a model that was fitted to the runs of the others.
   std::vector<Model> fitted_without(const AcceptedEffects& effects);
 

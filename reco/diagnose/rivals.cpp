@@ -12,10 +12,10 @@ bool leads(const EffectScore& effect, const EffectScore& first) {
 }
 
 bool is_alternative(const EffectScore& effect, const EffectScore& first, double gained, double left) {
-  constexpr double nearly = 0.75, far_behind = 0.6;
+  constexpr double nearly = 0.75, least = 0.6;
   const double explained = effect.likeness * effect.likeness, share = effect.best.gain / first.best.gain;
   const bool leaves_enough = gained * (1 - explained) <= left * explained;
-  return is_inseparable(effect, first) || share >= nearly || (share >= far_behind && leaves_enough);
+  return is_inseparable(effect, first) || share >= nearly || (share >= least && leaves_enough);
 }
 
 bool is_inseparable(const EffectScore& effect, const EffectScore& first) {

@@ -79,4 +79,10 @@ ModelJudge::Fit ModelJudge::judge(const Model& model, std::size_t run) const {
   return fit;
 }
 
+std::vector<ModelJudge::Fit> ModelJudge::judge_all(const Model& model) const {
+  std::vector<Fit> fits;
+  for (std::size_t r = 0; r < data_.runs.size(); ++r) fits.push_back(judge(model, r));
+  return fits;
+}
+
 }  // namespace floe

@@ -31,6 +31,7 @@ class ModelJudge {
     double expected = 0, scatter = 0;  // -ln L
   };
   Fit judge(const Model& model, std::size_t run) const;
+  std::vector<Fit> judge_all(const Model& model) const;  // by run
   // Standard deviation of the difference of -ln L, over all runs, of models that fit equally well: what their
   // simulations' noise makes.
   double noise_of_differences() const { return std::sqrt(squared_noise_); }
