@@ -10,6 +10,8 @@ namespace floe {
 namespace {
 
 constexpr double close = 2;          // differences of -ln L, in units of their noise
+constexpr double behind = 1;         // likewise: is believed if its own fit, too, found little
+constexpr double little = 0.7;       // of the other's chi-square
 constexpr double undecided = 6;      // differences of chi-square
 constexpr double beyond_doubt = 25;  // likewise: not worth more rounds
 constexpr double needed = 9;         // chi-square of an effect that is there beside the other
@@ -23,14 +25,22 @@ double cost(const Candidate& candidate) {
   return candidate.trial.neg_llh + 0.5 * parameters_in(candidate.trial);
 }
 
-// From where nothing is changed: where either ends, it favours itself.
+// What is false gains less than what is true, and its fit, which follows the light's slopes, needs it less.
+bool is_outdone(const Candidate& candidate, const Candidate& best, double noise) {
+  return cost(candidate) > cost(best) + behind * noise &&
+         candidate.trial.chi_square < little * best.trial.chi_square;
+}
+
+// From half way to where it ended alone: from that end itself it would be favoured, and two halves of what is
+// alike explain the data nearly as well as either.
 std::vector<IceParameter> parameters_of(const Candidate& candidate, const Model& base) {
   std::vector<IceParameter> parameters = candidate.trial.parameters;
   const std::size_t first = candidate.fit.numbers.size() - parameters.size();
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     IceParameter& p = parameters[i];
+    const double alone = candidate.fit.numbers[first + i];
     const bool is_place = is_place_of_band(p);
-    p.start = is_place ? candidate.fit.numbers[first + i] : null_number(p, base);
+    p.start = is_place ? alone : (null_number(p, base) + alone) / 2;
     if (is_place) p.prior = held * p.scale;
   }
   return parameters;
@@ -71,6 +81,7 @@ void hold_contest(const Model& base, double noise, const FitBeside& fit, std::ve
   const double limit = cost(candidates.front()) + close * noise;
   std::size_t best = 0;
   for (std::size_t i = 1; i < candidates.size() && cost(candidates[i]) < limit; ++i) try {
+      if (is_outdone(candidates[i], candidates[best], noise)) continue;
       const auto [leader, challenger] = duel(candidates[best], candidates[i], base, fit);
       const bool stays =
           leader - parameters_in(candidates[best].trial) >= challenger - parameters_in(candidates[i].trial);

@@ -45,7 +45,8 @@ double chi_square_of(const std::vector<IceParameter>& parameters, const IceFit& 
                      const Model& base);
 
 // Puts the best first. -ln L decides, with half a unit for each parameter, where the differences are larger
-// than the `noise` of simulations; candidates that are closer are fitted together, two at a time, and the one
+// than twice the `noise` of simulations, or than this noise and the chi-square of the one that is behind is
+// less than 70% of the other's; candidates that are closer are fitted together, two at a time, and the one
 // that adds more to the other wins. A duel ends early when the difference is beyond doubt.
 void hold_contest(const Model& base, double noise, const FitBeside& fit, std::vector<Candidate>& candidates);
 

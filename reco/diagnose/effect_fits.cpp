@@ -8,7 +8,7 @@ namespace floe {
 
 namespace {
 
-constexpr int rounds_of_fits = 4, rounds_of_layers = 5, rounds_of_rivals = 5;
+constexpr int rounds_of_fits = 4, rounds_of_layers = 5, rounds_of_rivals = 4;
 constexpr double light_of_pairs = 0.5;  // of fits, in units of a run's own simulation
 constexpr double light_of_first_round = 0.4;
 constexpr double light_of_folds = 3;  // in units of other fits'

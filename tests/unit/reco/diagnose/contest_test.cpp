@@ -50,10 +50,10 @@ TEST_F(Contest, CloseRivalsMeetInOneFit) {
   hold_contest(
       base_, noise_,
       [](const std::vector<IceParameter>& both, const auto& settled) {
-        // Both begin where nothing is changed.
+        // Both begin half way to where they ended alone.
         EXPECT_EQ(both[0].name, "scattering-anisotropy.k1");
-        EXPECT_EQ(both[0].start, 0);
-        EXPECT_EQ(both[1].start, 0.6);
+        EXPECT_DOUBLE_EQ(both[0].start, 0.06);
+        EXPECT_DOUBLE_EQ(both[1].start, 0.325);
         EXPECT_FALSE(settled(fit_with({99, 0.02, 0.1}, {1, 0.02, 0.1})));  // 24: may change
         EXPECT_TRUE(settled(fit_with({99, 0.02, -0.1}, {1, 0.02, 0.1})));  // 1 - 49
         return fit_with({99, 0.02, 0.1}, {1, 0.02, 0.1});  // after what is in the model already
@@ -64,6 +64,28 @@ TEST_F(Contest, CloseRivalsMeetInOneFit) {
   EXPECT_NEAR(candidates[1].trial.lost->winner, 25, 1e-9);
   EXPECT_NEAR(candidates[1].trial.lost->loser, 1, 1e-9);
   EXPECT_FALSE(lost_narrowly(candidates[1].trial));
+}
+
+// By its likelihood and by its own fit: no more light is spent on it. By one of them alone it may be chance.
+TEST_F(Contest, WhoIsBehindInBothIsNotFittedAgain) {
+  const auto fits_after = [&](double neg_llh, double chi_square) {
+    auto candidates = rivals(neg_llh);  // absorption first
+    candidates[0].trial.chi_square = chi_square;
+    candidates[1].trial.chi_square = 100;
+    int fits = 0;
+    hold_contest(
+        base_, noise_,
+        [&](const auto&, const auto&) {
+          ++fits;
+          return fit_with({0.4, 0.6}, {0.05, 0.2});
+        },
+        candidates);
+    EXPECT_EQ(candidates[0].trial.suspect.effect, "scattering-anisotropy");
+    return fits;
+  };
+  EXPECT_EQ(fits_after(185 + 1.1 * noise_, 69), 0);
+  EXPECT_EQ(fits_after(185 + 1.1 * noise_, 71), 1);
+  EXPECT_EQ(fits_after(185 + 0.9 * noise_, 69), 1);
 }
 
 TEST_F(Contest, WhatBothCouldBeIsLostNarrowly) {
