@@ -17,15 +17,15 @@ namespace {
 constexpr double radian_in_degrees = 180 / std::numbers::pi;
 
 // A bin of the survey, seen from its flasher.
-struct Place {
+struct BinPlace {
   const Module* module;
   Vec3 way;         // from the flasher
   double lateness;  // 0..1 of the receiver's light
   int bins;         // of the receiver
 };
 
-std::vector<Place> places_of(const Model& model, const Survey& survey) {
-  std::vector<Place> places(static_cast<std::size_t>(survey.bins));
+std::vector<BinPlace> places_of(const Model& model, const Survey& survey) {
+  std::vector<BinPlace> places(static_cast<std::size_t>(survey.bins));
   const auto& modules = model.detector->modules();
   for (const SurveyRun& run : survey.runs) {
     const Vec3 flasher = modules[model.detector->index_of(run.data.run.module)].position;
@@ -40,7 +40,7 @@ std::vector<Place> places_of(const Model& model, const Survey& survey) {
 
 // Cells of equal width from `low` on; what lies beyond the last one is in the last.
 Axis ranged(const std::string& name, const std::string& unit, double low, double width, int cells,
-            const std::vector<Place>& places, const std::function<double(const Place&)>& value) {
+            const std::vector<BinPlace>& places, const std::function<double(const BinPlace&)>& value) {
   Axis axis;
   axis.axis = name;
   axis.unit = unit;
@@ -48,7 +48,7 @@ Axis ranged(const std::string& name, const std::string& unit, double low, double
     axis.low.push_back(low + i * width);
     axis.high.push_back(low + (i + 1) * width);
   }
-  for (const Place& place : places) {
+  for (const BinPlace& place : places) {
     const double at = value(place);
     const int cell = static_cast<int>(std::floor((at - low) / width));
     axis.cell.push_back(std::isfinite(at) ? std::clamp(cell, 0, cells - 1) : -1);
@@ -57,13 +57,13 @@ Axis ranged(const std::string& name, const std::string& unit, double low, double
 }
 
 // A cell for each string or module.
-Axis named(const std::string& name, const std::vector<Place>& places,
-           const std::function<ModuleId(const Place&)>& id) {
+Axis named(const std::string& name, const std::vector<BinPlace>& places,
+           const std::function<ModuleId(const BinPlace&)>& id) {
   Axis axis;
   axis.axis = name;
   axis.ordered = false;
   std::map<ModuleId, int> cells;
-  for (const Place& place : places) cells[id(place)] = 0;
+  for (const BinPlace& place : places) cells[id(place)] = 0;
   int next = 0;
   for (auto& [module, cell] : cells) {
     cell = next++;
@@ -72,7 +72,7 @@ Axis named(const std::string& name, const std::vector<Place>& places,
     axis.names.push_back(module.dom > 0 ? fmt::format("{},{}", module.string, module.dom)
                                         : fmt::format("{}", module.string));
   }
-  for (const Place& place : places) axis.cell.push_back(cells[id(place)]);
+  for (const BinPlace& place : places) axis.cell.push_back(cells[id(place)]);
   return axis;
 }
 
@@ -86,9 +86,9 @@ Eigen::VectorXd Axis::sums(const Eigen::VectorXd& of_bins) const {
 }
 
 std::vector<Axis> axes_of(const Model& model, const Survey& survey) {
-  const std::vector<Place> places = places_of(model, survey);
+  const std::vector<BinPlace> places = places_of(model, survey);
   double top = 1e9, bottom = -1e9;
-  for (const Place& place : places) {
+  for (const BinPlace& place : places) {
     top = std::min(top, origin_depth - place.module->position.z());
     bottom = std::max(bottom, origin_depth - place.module->position.z());
   }
@@ -96,20 +96,20 @@ std::vector<Axis> axes_of(const Model& model, const Survey& survey) {
   std::vector<Axis> axes;
   axes.push_back(ranged("depth", "m", layer * std::floor(top / layer), layer,
                         std::max(1, static_cast<int>(std::ceil((bottom - top) / layer)) + 1), places,
-                        [](const Place& p) { return origin_depth - p.module->position.z(); }));
-  axes.push_back(ranged("azimuth", "deg", 0, 15, 12, places, [](const Place& p) {
+                        [](const BinPlace& p) { return origin_depth - p.module->position.z(); }));
+  axes.push_back(ranged("azimuth", "deg", 0, 15, 12, places, [](const BinPlace& p) {
     if (p.way.head<2>().norm() < 1) return std::nan("");
     return std::fmod(std::atan2(p.way.y(), p.way.x()) * radian_in_degrees + 360, 180);
   }));
   axes.back().circular = true;
-  axes.push_back(ranged("distance", "m", 0, far, 12, places, [](const Place& p) { return p.way.norm(); }));
+  axes.push_back(ranged("distance", "m", 0, far, 12, places, [](const BinPlace& p) { return p.way.norm(); }));
   axes.push_back(ranged("time", "share of the light", 0, 0.25, 4, places,
-                        [](const Place& p) { return p.bins >= 4 ? p.lateness : std::nan(""); }));
-  axes.push_back(ranged("arrival angle", "deg", 0, 15, 12, places, [](const Place& p) {
+                        [](const BinPlace& p) { return p.bins >= 4 ? p.lateness : std::nan(""); }));
+  axes.push_back(ranged("arrival angle", "deg", 0, 15, 12, places, [](const BinPlace& p) {
     return std::acos(std::clamp(p.way.z() / std::max(1.0, p.way.norm()), -1.0, 1.0)) * radian_in_degrees;
   }));
-  axes.push_back(named("string", places, [](const Place& p) { return ModuleId{p.module->id.string, 0}; }));
-  axes.push_back(named("module", places, [](const Place& p) { return p.module->id; }));
+  axes.push_back(named("string", places, [](const BinPlace& p) { return ModuleId{p.module->id.string, 0}; }));
+  axes.push_back(named("module", places, [](const BinPlace& p) { return p.module->id; }));
   return axes;
 }
 

@@ -23,7 +23,7 @@ namespace floe {
 namespace {
 
 // Far from the streams of surveys.
-constexpr std::uint64_t data_stream = std::uint64_t{1} << 46, look_stream = data_stream + 1000,
+constexpr std::uint64_t data_stream = std::uint64_t{1} << 46, first_look_stream = data_stream + 1000,
                         trial_stream = std::uint64_t{1} << 47, full_stream = std::uint64_t{1} << 48,
                         outside_stream = std::uint64_t{1} << 49, value_stream = std::uint64_t{1} << 50;
 
@@ -46,7 +46,7 @@ class Trials {
     const FirstLook look = look_first(
         base_,
         [this](std::size_t r, double photons) {
-          RunRequest request = light_.request(r, look_stream);
+          RunRequest request = light_.request(r, first_look_stream);
           request.photons = photons;
           return request;
         },

@@ -140,18 +140,18 @@ Residuals inside(const Axis& axis, const CellRange& range, Residuals bins) {
 
 std::string sentence_of(const Region& region, const Axis& axis, const Extreme& at, const Axis& distance,
                         const Axis& time, const Residuals& all) {
-  constexpr double clear = 3;  // standard deviations
+  constexpr double sure = 3;  // standard deviations
   const Residuals here = inside(axis, at, all);
   std::string text = region.sentence.substr(0, region.sentence.size() - 1);
   if (region.axis != "distance") {
     const double grows = growth(distance, here);
-    text += grows > clear ? ", growing with distance" : grows < -clear ? ", fading with distance" : "";
+    text += grows > sure ? ", growing with distance" : grows < -sure ? ", fading with distance" : "";
   }
   if (region.axis != "time") {
     const double grows = growth(time, here);
-    text += grows > clear    ? ", most in late light"
-            : grows < -clear ? ", most in early light"
-                             : ", timing unchanged";
+    text += grows > sure    ? ", most in late light"
+            : grows < -sure ? ", most in early light"
+                            : ", timing unchanged";
   }
   return text + ".";
 }

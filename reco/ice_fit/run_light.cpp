@@ -14,7 +14,7 @@ namespace floe {
 
 namespace {
 
-constexpr double time_step = 2;  // [ns] each way, for the slope in time zero
+constexpr double slope_step = 2;  // [ns] each way, for the slope in time zero
 constexpr std::uint64_t first_afterpulse = first_noise_hit + (std::uint64_t{1} << 61);
 constexpr std::size_t parts = 16;  // of the work: sums come out alike for any number of threads
 
@@ -93,8 +93,8 @@ RunLight count_light(const SimulatedRun& run, const RunBins& bins, double photon
     if (bin < 0) continue;
     LightFold& fold = light.folds[hit.photon & 1];
     fold.counts(bin) += 1;
-    fold.delay(bins.bin(hit.module, hit.time + time_step)) += 1 / (2 * time_step);
-    fold.delay(bins.bin(hit.module, hit.time - time_step)) -= 1 / (2 * time_step);
+    fold.delay(bins.bin(hit.module, hit.time + slope_step)) += 1 / (2 * slope_step);
+    fold.delay(bins.bin(hit.module, hit.time - slope_step)) -= 1 / (2 * slope_step);
   }
   return light;
 }
