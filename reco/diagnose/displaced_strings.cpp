@@ -9,7 +9,7 @@ namespace floe {
 
 namespace {
 
-constexpr double reach = 1;  // [m] each way; light changes little over that
+constexpr double reach = 2.5;  // [m] each way; light changes by about a tenth
 
 Model displaced(const Model& model, int except, const Vec3& offset) {
   std::vector<Module> modules = model.detector->modules();
@@ -33,22 +33,25 @@ DisplacedStrings displaced_strings(const Model& model, const RunRequest& request
   less.photons *= share;
   RunLight slopes = light;
   slopes.symmetric.assign(3, 0);
-  // Relative to these simulations' own counts: nothing of the run's own noise is in the slopes.
   for (LightFold& fold : slopes.folds) {
-    fold.counts.setZero();
     fold.slopes = Eigen::MatrixXd::Zero(bins.size(), 3);
     fold.slope_squares = fold.slopes;
   }
+  const auto displaced_by = [&](const Vec3& offset) {
+    SimulatedRun simulated = simulate_run(displaced(model, request.run.module.string, offset), less);
+    delay(simulated, time_zero);
+    result.propagated += simulated.propagated;
+    return count_light(simulated, bins, less.photons, 0);
+  };
+  // Relative to a simulation of their own, so that nothing of the run's noise is in the slopes; not to the
+  // mean of the displaced: early light of near modules changes so much that it grows on average.
+  const RunLight in_place = displaced_by(Vec3::Zero());
+  for (int fold = 0; fold < 2; ++fold) slopes.folds[fold].counts = in_place.folds[fold].counts / share;
   for (int axis = 0; axis < 3; ++axis)
     for (const double way : {-1.0, 1.0}) {
-      const Model moved = displaced(model, request.run.module.string, way * reach * Vec3::Unit(axis));
-      SimulatedRun simulated = simulate_run(moved, less);
-      delay(simulated, time_zero);
-      result.propagated += simulated.propagated;
-      const RunLight counted = count_light(simulated, bins, less.photons, 0);
+      const RunLight counted = displaced_by(way * reach * Vec3::Unit(axis));
       const double factor = way / (2 * reach * share);
       for (int fold = 0; fold < 2; ++fold) {
-        slopes.folds[fold].counts += counted.folds[fold].counts / (6 * share);
         slopes.folds[fold].slopes.col(axis) += factor * counted.folds[fold].counts;
         slopes.folds[fold].slope_squares.col(axis) += factor * factor * counted.folds[fold].counts;
       }

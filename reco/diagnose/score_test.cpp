@@ -38,16 +38,22 @@ MatrixXd combined(const Suspect& a, const Suspect& b, const MatrixXd& columns) {
   return sums;
 }
 
-// Combinations of amplitudes that change light by something: columns of the result. `large`: a large change
-// of each amplitude; `light`: counts of all bins.
-MatrixXd known_directions(const MatrixXd& information, const VectorXd& large, double light) {
+// Combinations of amplitudes that change light by something, in columns; and those that do not, as large as
+// they may be.
+struct Directions {
+  MatrixXd known, unknown;
+};
+// `large`: a large change of each amplitude; `light`: counts of all bins.
+Directions directions(const MatrixXd& information, const VectorXd& large, double light) {
   constexpr double least = 1e-4;   // of the largest
   constexpr double hardly = 1e-9;  // mean square of the relative change of light
   const Eigen::SelfAdjointEigenSolver<MatrixXd> parts(large.asDiagonal() * information * large.asDiagonal());
   const VectorXd& values = parts.eigenvalues();  // rising
   const double limit = std::max(least * values.maxCoeff(), hardly * light);
   const Eigen::Index unknown = (values.array() <= limit).count();
-  return large.asDiagonal() * parts.eigenvectors().rightCols(values.size() - unknown);
+  const MatrixXd all = large.asDiagonal() * parts.eigenvectors();
+  constexpr double furthest = 2;  // large changes, as far as amplitudes are looked for
+  return {all.rightCols(values.size() - unknown), furthest * all.leftCols(unknown)};
 }
 
 // By amplitude of the suspect.
@@ -119,13 +125,14 @@ std::vector<TestedSuspect> prepare(const Survey& survey, const std::vector<Suspe
     t.suspect = &suspect;
     t.light = light;
     t.information = combined(suspect, suspect, survey.information);
-    const MatrixXd directions =
-        known_directions(t.information, large_changes(suspect, parameters, survey), light);
-    if (directions.cols() == 0) continue;  // no light would show it
-    t.degrees = static_cast<int>(directions.cols());
-    t.inverse_information = inverse(t.information, directions);
+    const auto [known, unknown] =
+        directions(t.information, large_changes(suspect, parameters, survey), light);
+    if (known.cols() == 0) continue;  // no light would show it
+    t.degrees = static_cast<int>(known.cols());
+    t.inverse_information = inverse(t.information, known);
     t.noise = combined(suspect, suspect, survey.noise);
-    t.inverse_noise = inverse(t.noise, directions);
+    t.inverse_noise = inverse(t.noise, known);
+    t.unknown = unknown.rowwise().squaredNorm();
     limit(suspect, parameters, survey, t);
     tested.push_back(std::move(t));
   }
@@ -186,7 +193,8 @@ VectorXd TestedSuspect::amplitudes(const VectorXd& columns, const VectorXd& arou
   return within_limits(weight * information, weight * gap, low, high, at);
 }
 VectorXd TestedSuspect::errors() const {
-  return (inverse_information * noise * inverse_information).diagonal().cwiseMax(0).cwiseSqrt();
+  const VectorXd known = (inverse_information * noise * inverse_information).diagonal().cwiseMax(0);
+  return (known + unknown).cwiseSqrt();
 }
 double TestedSuspect::size(const VectorXd& at) const {
   return std::sqrt(std::max(0.0, at.dot(information * at)) / light);

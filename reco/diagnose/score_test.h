@@ -48,6 +48,7 @@ struct ScoreTest {
 struct TestedSuspect {
   const Suspect* suspect;
   Eigen::MatrixXd information, noise, inverse_information, inverse_noise;
+  Eigen::VectorXd unknown;    // squared errors of the amplitudes along what light does not show
   Eigen::VectorXd low, high;  // limits of the amplitudes
   double light;               // counts of all bins
   int degrees;                // combinations of amplitudes that light shows

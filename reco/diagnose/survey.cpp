@@ -130,7 +130,7 @@ class Surveyor {
       other.stream += 2;
       const DisplacedStrings displaced =
           displaced_strings(point_.model(), other, run.bins, time_zero, light,
-                            pairs.share(run.counts.simulated[0].sum() + run.counts.simulated[1].sum()) / 2);
+                            2 * pairs.share(run.counts.simulated[0].sum() + run.counts.simulated[1].sum()));
       survey_.photons += displaced.propagated;
       for (std::size_t fold = 0; fold < 2; ++fold) {
         slopes[fold].places.displacement = displaced.fold[fold];

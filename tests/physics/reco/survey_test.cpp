@@ -261,17 +261,33 @@ class ASurvey : public OfOneFlasher {
     }
     return best;
   }
+  double gap_of_change(const std::vector<std::string>& settings, Eigen::Index column) const {
+    ModelRequest changed;
+    for (const std::string& text : settings) changed.with.push_back(parse_effect_setting(text));
+    return gap_of_light(load_model(changed))(column);
+  }
   // The gap is information times the change; how large the change is, in standard deviations, does not matter
   // as long as it stays small.
   void expect_found(const std::vector<std::string>& settings, Eigen::Index column, double change) const {
-    ModelRequest changed;
-    for (const std::string& text : settings) changed.with.push_back(parse_effect_setting(text));
     static const Eigen::VectorXd unchanged = gap_of_light(model_);
-    const double found = (gap_of_light(load_model(changed)) - unchanged)(column),
-                 expected = survey_.information(column, column) * change,
+    expect_gap(gap_of_change(settings, column) - unchanged(column), column, change, settings.back());
+  }
+  // Light of near modules grows more towards the flasher than it fades away from it: half of the difference.
+  void expect_displaced(int string, SurveyColumn::Kind kind, double change) const {
+    const char axis = "xyz"[static_cast<int>(kind) - static_cast<int>(SurveyColumn::Kind::string_x)];
+    const Eigen::Index at = column(kind, string, 0);
+    const auto gap = [&](double way) {
+      return gap_of_change({fmt::format("geometry-offset.string={}", string),
+                            fmt::format("geometry-offset.{}={}", axis, way * change)},
+                           at);
+    };
+    expect_gap((gap(1) - gap(-1)) / 2, at, change, fmt::format("string {} {}", string, axis));
+  }
+  void expect_gap(double found, Eigen::Index column, double change, const std::string& of) const {
+    const double expected = survey_.information(column, column) * change,
                  noise = std::sqrt(2 / more_ * survey_.noise(column, column));
-    EXPECT_GT(std::abs(expected), 6 * noise) << "too small a change to be seen";
-    EXPECT_NEAR(found, expected, 0.1 * std::abs(expected) + 2 * noise) << settings.back();
+    EXPECT_GT(std::abs(expected), 6 * noise) << of << ": too small a change to be seen";
+    EXPECT_NEAR(found, expected, 0.1 * std::abs(expected) + 2 * noise) << of;
   }
   std::vector<IceParameter> parameters_;
   Survey survey_;
@@ -291,9 +307,9 @@ TEST_F(ASurvey, KnowsHowChangesShow) {
   expect_found({"module-efficiency.string=36", "module-efficiency.dom=21", "module-efficiency.factor=1.5"},
                column(Kind::module_efficiency, string, 21), 0.5);
   expect_found({"time-offset." + on_other, "time-offset.time=5"}, column(Kind::string_time, other, 0), 5);
-  expect_found({"geometry-offset." + on_other, "geometry-offset.x=3"}, column(Kind::string_x, other, 0), 3);
-  expect_found({"geometry-offset." + on_other, "geometry-offset.z=3"}, column(Kind::string_z, other, 0), 3);
-  expect_found({"geometry-offset.string=36", "geometry-offset.x=2"}, column(Kind::string_x, string, 0), 2);
+  expect_displaced(other, Kind::string_x, 3);
+  expect_displaced(other, Kind::string_z, 3);
+  expect_displaced(string, Kind::string_y, 2);
 }
 
 // Of the true model the gap is noise: of data and simulation, as much as the survey says.
@@ -388,6 +404,19 @@ TEST_F(ASurvey, AsksAtOtherPlacesThatExplainNearlyAsMuch) {
   EXPECT_FALSE(is_same_place(both.elsewhere->suspect.place, both.best.suspect.place));
   EXPECT_GT(both.elsewhere->gain, 0.5 * both.best.gain);
   EXPECT_LE(both.elsewhere->gain, both.best.gain);
+}
+
+// Of two amplitudes that do the same, light tells the sum; each may be as far off as it is looked for.
+TEST_F(ASurvey, DoesNotClaimWhatLightDoesNotShow) {
+  const auto at = static_cast<int>(column(SurveyColumn::Kind::string_efficiency, 36, 0));
+  const std::vector<Suspect> suspects{{"string-efficiency", {{"string", 36}}, {{{at, 1.0}}, {{at, 1.0}}}}};
+  const ScoreTester tester(survey_, suspects, parameters_, Draws{50, 1});
+  const double of_sum = std::sqrt(survey_.noise(at, at)) / survey_.information(at, at),
+               unknown = 2 * large_change(SurveyColumn::Kind::string_efficiency) / std::sqrt(2);
+  ASSERT_EQ(tester.suspects().size(), 1U);
+  EXPECT_EQ(tester.suspects()[0].degrees, 1);
+  for (const double error : tester.suspects()[0].errors())
+    EXPECT_NEAR(error, std::hypot(of_sum / 2, unknown), 1e-6 * unknown);
 }
 
 // What blind trials hide has the expected gain of the significance that was drawn, within the wanted range,

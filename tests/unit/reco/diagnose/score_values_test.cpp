@@ -36,6 +36,7 @@ class OneRun : public ::testing::Test {
                one(information),
                one(1 / information),
                one(1 / information),
+               Eigen::VectorXd::Zero(1),
                Eigen::VectorXd::Constant(1, -2),
                Eigen::VectorXd::Constant(1, 2),
                base_.sum(),

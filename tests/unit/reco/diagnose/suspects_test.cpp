@@ -149,6 +149,7 @@ TEST(TestedSuspects, KeepToTheirLimits) {
                        .noise = (Eigen::Matrix2d() << 3, 1, 1, 2.5).finished(),
                        .inverse_information = {},
                        .inverse_noise = {},
+                       .unknown = Eigen::VectorXd::Zero(2),
                        .low = Eigen::Vector2d(-1, -1),
                        .high = Eigen::Vector2d(1, 1),
                        .light = 1,
