@@ -53,8 +53,7 @@ class Trials {
         data);
     const SuspectPlan plan =
         plan_suspects(base_, flasher_depths(data, *base_.detector), data.runs.size(), options_.oversize);
-    SurveyPlan survey_plan{
-        .parameters = plan.parameters, .pair_light = options_.pair_light, .turns_by_pairs = true};
+    SurveyPlan survey_plan{.parameters = plan.parameters, .pair_light = options_.pair_light};
     const Survey survey = survey_data(base_, data, look, survey_plan, options_,
                                       [this](double fraction, const std::string& text) {
                                         if (progress_) progress_(0.3 * fraction, "survey: " + text);

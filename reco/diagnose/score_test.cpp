@@ -38,8 +38,8 @@ MatrixXd combined(const Suspect& a, const Suspect& b, const MatrixXd& columns) {
   return sums;
 }
 
-// Combinations of amplitudes that change light by something, in columns; and those that do not, as large as
-// they may be.
+// Combinations of amplitudes that change light by something, in columns, and those that do not; large
+// changes all.
 struct Directions {
   MatrixXd known, unknown;
 };
@@ -52,8 +52,7 @@ Directions directions(const MatrixXd& information, const VectorXd& large, double
   const double limit = std::max(least * values.maxCoeff(), hardly * light);
   const Eigen::Index unknown = (values.array() <= limit).count();
   const MatrixXd all = large.asDiagonal() * parts.eigenvectors();
-  constexpr double furthest = 2;  // large changes, as far as amplitudes are looked for
-  return {all.rightCols(values.size() - unknown), furthest * all.leftCols(unknown)};
+  return {all.rightCols(values.size() - unknown), all.leftCols(unknown)};
 }
 
 // By amplitude of the suspect.

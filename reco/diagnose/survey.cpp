@@ -21,6 +21,8 @@ namespace {
 constexpr std::uint64_t first_stream = std::uint64_t{1} << 42, streams_a_run = 1 << 10,
                         streams_a_survey = 1 << 20;
 
+constexpr bool turns_by_pairs = true;
+
 using Kind = SurveyColumn::Kind;
 
 // Slopes of ln(light) in a run's bins, of one fold.
@@ -49,7 +51,7 @@ class Surveyor {
         settings_(settings),
         progress_(progress),
         point_(model, plan.parameters, starts(plan.parameters), data.runs.front().run.wavelength,
-               plan.turns_by_pairs) {}
+               turns_by_pairs) {}
 
   Survey run() {
     for (std::size_t r = 0; r < data_.runs.size(); ++r) look_at(r);
@@ -130,7 +132,7 @@ class Surveyor {
       other.stream += 2;
       const DisplacedStrings displaced =
           displaced_strings(point_.model(), other, run.bins, time_zero, light,
-                            2 * pairs.share(run.counts.simulated[0].sum() + run.counts.simulated[1].sum()));
+                            pairs.share(run.counts.simulated[0].sum() + run.counts.simulated[1].sum()));
       survey_.photons += displaced.propagated;
       for (std::size_t fold = 0; fold < 2; ++fold) {
         slopes[fold].places.displacement = displaced.fold[fold];

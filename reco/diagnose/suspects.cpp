@@ -219,6 +219,9 @@ std::vector<IceParameter> parameters_from(const Suspect& suspect, const Eigen::V
     Eigen::Index i = 0;
     for (const Changing& change : changing(suspect.effect)) {
       IceParameter p = parameter_at_place(change, suspect, base);
+      // Of what no light shows, noise would make much: a string that moves across the line to the only
+      // flasher that it sees.
+      p.prior = suspect.largest, p.prior_centre = p.start;
       p.start = within(p, p.start + amplitudes(i++), std::min(suspect.largest, 10 * p.scale));
       parameters.push_back(std::move(p));
     }
@@ -276,7 +279,7 @@ double large_change(Kind kind) {
     case Kind::string_x:
     case Kind::string_y:
     case Kind::string_z:
-      return 2;
+      return 5;
     case Kind::parameter:
     case Kind::string_efficiency:
     case Kind::module_efficiency:

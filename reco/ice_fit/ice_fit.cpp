@@ -103,7 +103,7 @@ class Fit {
   }
 
   IcePoint begin_round() {
-    IcePoint point(base_, fit_.parameters, fit_.numbers, scores_.wavelength());
+    IcePoint point(base_, fit_.parameters, fit_.numbers, scores_.wavelength(), options_.turns_by_pairs);
     scores_.begin_round(point.model());
     return point;
   }

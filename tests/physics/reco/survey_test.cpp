@@ -406,13 +406,13 @@ TEST_F(ASurvey, AsksAtOtherPlacesThatExplainNearlyAsMuch) {
   EXPECT_LE(both.elsewhere->gain, both.best.gain);
 }
 
-// Of two amplitudes that do the same, light tells the sum; each may be as far off as it is looked for.
+// Of two amplitudes that do the same, light tells the sum; each may be a large change off.
 TEST_F(ASurvey, DoesNotClaimWhatLightDoesNotShow) {
   const auto at = static_cast<int>(column(SurveyColumn::Kind::string_efficiency, 36, 0));
   const std::vector<Suspect> suspects{{"string-efficiency", {{"string", 36}}, {{{at, 1.0}}, {{at, 1.0}}}}};
   const ScoreTester tester(survey_, suspects, parameters_, Draws{50, 1});
   const double of_sum = std::sqrt(survey_.noise(at, at)) / survey_.information(at, at),
-               unknown = 2 * large_change(SurveyColumn::Kind::string_efficiency) / std::sqrt(2);
+               unknown = large_change(SurveyColumn::Kind::string_efficiency) / std::sqrt(2);
   ASSERT_EQ(tester.suspects().size(), 1U);
   EXPECT_EQ(tester.suspects()[0].degrees, 1);
   for (const double error : tester.suspects()[0].errors())
