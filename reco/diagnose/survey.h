@@ -90,8 +90,8 @@ Eigen::VectorXd residual_of(const Survey& survey, const SurveyCounts& counts);
 struct SurveyPlan {
   const std::vector<IceParameter>& parameters;              // at their null values in the model
   double pair_reach = 1, pair_light = 0.25, one_sided = 4;  // see PairPlan
-  // A little more than fits have: what scores do not see is never fitted.
-  double least_pair_hits = 1.3 * enough_pair_hits;
+  // A little less than fits have: surveys have many pairs, and make them smooth all the same.
+  double least_pair_hits = 0.75 * enough_pair_hits;
   std::uint64_t stream = 0;  // of each survey its own, counting from 0
   bool places = true;        // strings and modules, too
 };
