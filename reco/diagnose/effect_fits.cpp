@@ -56,7 +56,6 @@ IceFitOptions EffectFits::options(int rounds) const {
   asked.judged = false;  // all models are judged by the same light, elsewhere
   asked.pair_light = light_of_pairs;
   asked.least_pair_hits = enough_pair_hits;
-  asked.turns_by_pairs = true;
   asked.first_light = light_of_first_round;
   return asked;
 }

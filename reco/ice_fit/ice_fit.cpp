@@ -103,7 +103,7 @@ class Fit {
   }
 
   IcePoint begin_round() {
-    IcePoint point(base_, fit_.parameters, fit_.numbers, scores_.wavelength(), options_.turns_by_pairs);
+    IcePoint point(base_, fit_.parameters, fit_.numbers, scores_.wavelength());
     scores_.begin_round(point.model());
     return point;
   }

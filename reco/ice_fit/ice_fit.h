@@ -28,8 +28,7 @@ struct IceFitOptions : RunSettings {
   double efficiency_width = 0;
   // Of the simulations of slopes that weights of paths cannot give, in units of a run's own.
   double pair_light = 1;
-  double least_pair_hits = 0;   // see PairPlan
-  bool turns_by_pairs = false;  // see IcePoint
+  double least_pair_hits = 0;  // see PairPlan
   // Of the first round, in units of a later one's: it only leads near to where the others go on.
   double first_light = 1;
   int most_rounds = 6;

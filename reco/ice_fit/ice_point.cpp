@@ -11,7 +11,9 @@ namespace floe {
 namespace {
 
 constexpr double weight_step = 1e-3;  // in the parameter's scale, for weights, which are exact
-constexpr double clock_step = 4;      // [ns] each way; light rises more slowly after some scattering
+// Strength of birefringence. What turns of light say of it is as noisy as its inverse.
+constexpr double weak_crystals = 0.7;
+constexpr double clock_step = 4;  // [ns] each way; light rises more slowly after some scattering
 
 }  // namespace
 
@@ -37,7 +39,8 @@ IcePoint::IcePoint(const Model& base, const std::vector<IceParameter>& parameter
       continue;
     }
     const bool of_turns = parameters_[p].effect && parameters_[p].effect->effect == "birefringence";
-    if (!(of_turns && turns_by_pairs) && map_.add(static_cast<int>(p), changed, step)) continue;
+    const bool by_pairs = of_turns && (turns_by_pairs || numbers_[p] < weak_crystals);
+    if (!by_pairs && map_.add(static_cast<int>(p), changed, step)) continue;
     of_modules_[p] = ModuleChange::between(model_, changed);
     if (of_modules_[p] && of_modules_[p]->only_clocks) {
       std::vector<double> later = of_modules_[p]->later;

@@ -36,7 +36,7 @@ struct PairPlan {
 class IcePoint {
  public:
   // `wavelength`: of the runs [nm]. `turns_by_pairs`: weights of the birefringence's strength follow from the
-  // turns of light and are noisy; pairs with enough light are better.
+  // turns of light and are noisy; pairs with enough light are better, and taken where it is weak in any case.
   IcePoint(const Model& base, const std::vector<IceParameter>& parameters, std::vector<double> numbers,
            double wavelength, bool turns_by_pairs = false);
 
