@@ -21,6 +21,7 @@ namespace {
 constexpr std::uint64_t first_stream = std::uint64_t{1} << 42, streams_a_run = 1 << 10,
                         streams_a_survey = 1 << 20;
 
+// A survey's pairs have the light for it; see IcePoint.
 constexpr bool turns_by_pairs = true;
 
 using Kind = SurveyColumn::Kind;

@@ -309,7 +309,7 @@ TEST_F(ASurvey, KnowsHowChangesShow) {
   expect_found({"time-offset." + on_other, "time-offset.time=5"}, column(Kind::string_time, other, 0), 5);
   expect_displaced(other, Kind::string_x, 3);
   expect_displaced(other, Kind::string_z, 3);
-  expect_displaced(string, Kind::string_y, 2);
+  expect_displaced(string, Kind::string_x, 2);
 }
 
 // Of the true model the gap is noise: of data and simulation, as much as the survey says.
