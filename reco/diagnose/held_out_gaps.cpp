@@ -22,8 +22,8 @@ double gap(const ModelJudge::Fit& fit) {
 // where it changes nothing, and the place of a band where the fit to all runs has it. Layers have priors of
 // their own.
 void expect_no_change(IceParameter& p, const Model& base) {
-  if (!p.family.empty() || p.prior > 0) return;
-  p.prior = p.scale;
+  if (!p.family.empty()) return;
+  p.prior = p.prior > 0 ? std::min(p.prior, p.scale) : p.scale;
   p.prior_centre = is_place_of_band(p) ? p.start : null_number(p, base);
 }
 

@@ -221,7 +221,7 @@ std::vector<IceParameter> parameters_from(const Suspect& suspect, const Eigen::V
       IceParameter p = parameter_at_place(change, suspect, base);
       // Of what no light shows, noise would make much: a string that moves across the line to the only
       // flasher that it sees.
-      p.prior = suspect.largest, p.prior_centre = p.start;
+      if (std::isfinite(suspect.largest)) p.prior = suspect.largest, p.prior_centre = p.start;
       p.start = within(p, p.start + amplitudes(i++), std::min(suspect.largest, 10 * p.scale));
       parameters.push_back(std::move(p));
     }

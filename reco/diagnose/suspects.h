@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -30,7 +31,7 @@ struct Suspect {
   Place place;
   // By amplitude: columns of the survey and their weights in it.
   std::vector<std::vector<std::pair<int, double>>> amplitudes;
-  double largest = 1e9;                   // amplitude that makes sense
+  double largest = std::numeric_limits<double>::infinity();  // amplitude that makes sense
   std::optional<DepthRange> layers = {};  // of effects that differ from layer to layer: an amplitude each
 };
 

@@ -207,12 +207,21 @@ TEST_F(Suspects, BecomeParametersOfAFit) {
   const auto factor = fit_parameters(string, Eigen::VectorXd::Constant(1, -0.2), model_);
   ASSERT_EQ(factor.size(), 1u);
   EXPECT_NEAR(factor[0].start, 0.8, 1e-12);
+  EXPECT_EQ(factor[0].prior, 0);
   const Model dimmer = with_parameters(model_, factor, {0.8});
   for (std::size_t i = 0; i < model_.detector->size(); ++i) {
     const Module &was = model_.detector->modules()[i], &is = dimmer.detector->modules()[i];
     EXPECT_NEAR(is.relative_efficiency, was.relative_efficiency * (was.id.string == 36 ? 0.8 : 1), 1e-12);
   }
   EXPECT_EQ(text_of(string), "string-efficiency of string 36");
+
+  // Noise would make much of what no light shows of a string's place.
+  const Suspect moved{"geometry-offset", {{"string", 36}}, {{{0, 1.0}}, {{1, 1.0}}, {{2, 1.0}}}, 6};
+  for (const IceParameter& p : fit_parameters(moved, Eigen::Vector3d(1, 20, -20), model_)) {
+    EXPECT_EQ(p.prior, 6);
+    EXPECT_EQ(p.prior_centre, 0);
+    EXPECT_LE(std::abs(p.start), 6);
+  }
 
   const Suspect band{"absorption-layer", {{"depth", 1780}, {"width", 40}}, {{{0, 1.0}}}};
   const auto of_band = fit_parameters(band, Eigen::VectorXd::Constant(1, std::log(1.5)), model_);
