@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <random>
 
@@ -21,8 +22,8 @@ namespace {
 constexpr std::uint64_t first_stream = std::uint64_t{1} << 42, streams_a_run = 1 << 10,
                         streams_a_survey = 1 << 20;
 
-// A survey's pairs have the light for it; see IcePoint.
-constexpr bool turns_by_pairs = true;
+// Pairs of a survey have light enough; see IcePoint.
+constexpr double turns_from = std::numeric_limits<double>::infinity();
 
 using Kind = SurveyColumn::Kind;
 
@@ -52,7 +53,7 @@ class Surveyor {
         settings_(settings),
         progress_(progress),
         point_(model, plan.parameters, starts(plan.parameters), data.runs.front().run.wavelength,
-               turns_by_pairs) {}
+               turns_from) {}
 
   Survey run() {
     for (std::size_t r = 0; r < data_.runs.size(); ++r) look_at(r);

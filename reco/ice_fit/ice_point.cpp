@@ -11,9 +11,7 @@ namespace floe {
 namespace {
 
 constexpr double weight_step = 1e-3;  // in the parameter's scale, for weights, which are exact
-// Strength of birefringence. What turns of light say of it is as noisy as its inverse.
-constexpr double weak_crystals = 0.7;
-constexpr double clock_step = 4;  // [ns] each way; light rises more slowly after some scattering
+constexpr double clock_step = 4;      // [ns] each way; light rises more slowly after some scattering
 
 }  // namespace
 
@@ -22,7 +20,7 @@ double PairPlan::share(double hits) const {
 }
 
 IcePoint::IcePoint(const Model& base, const std::vector<IceParameter>& parameters,
-                   std::vector<double> numbers, double wavelength, bool turns_by_pairs)
+                   std::vector<double> numbers, double wavelength, double turns_from)
     : base_(base),
       parameters_(parameters),
       numbers_(std::move(numbers)),
@@ -39,8 +37,8 @@ IcePoint::IcePoint(const Model& base, const std::vector<IceParameter>& parameter
       continue;
     }
     const bool of_turns = parameters_[p].effect && parameters_[p].effect->effect == "birefringence";
-    const bool by_pairs = of_turns && (turns_by_pairs || numbers_[p] < weak_crystals);
-    if (!by_pairs && map_.add(static_cast<int>(p), changed, step)) continue;
+    const bool by_weights = !of_turns || numbers_[p] >= turns_from;
+    if (by_weights && map_.add(static_cast<int>(p), changed, step)) continue;
     of_modules_[p] = ModuleChange::between(model_, changed);
     if (of_modules_[p] && of_modules_[p]->only_clocks) {
       std::vector<double> later = of_modules_[p]->later;

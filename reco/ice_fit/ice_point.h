@@ -33,12 +33,16 @@ struct PairPlan {
   double share(double hits) const;
 };
 
+// Slopes in the strength of birefringence follow from the turns of light where it is at least so strong, and
+// from pairs below: the noise of turns goes with its inverse.
+inline constexpr double enough_strength_for_turns = 0.7;
+
 class IcePoint {
  public:
-  // `wavelength`: of the runs [nm]. `turns_by_pairs`: weights of the birefringence's strength follow from the
-  // turns of light and are noisy; pairs with enough light are better, and taken where it is weak in any case.
+  // `wavelength`: of the runs [nm]. `turns_from`: strength, see above; infinite where pairs have light enough
+  // to be better than turns in any case.
   IcePoint(const Model& base, const std::vector<IceParameter>& parameters, std::vector<double> numbers,
-           double wavelength, bool turns_by_pairs = false);
+           double wavelength, double turns_from = enough_strength_for_turns);
 
   const Model& model() const { return model_; }
   // The model with one of the numbers changed.
