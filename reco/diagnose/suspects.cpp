@@ -86,6 +86,7 @@ IceParameter parameter_at_place(const Changing& changing, const Suspect& suspect
   parameter.low = all[index].low;
   parameter.high = all[index].high;
   parameter.scale = large_change(changing.kind);
+  parameter.place = text_of(suspect);
   parameter.apply = [effect, values, index](double number, ModelParts& model) {
     std::vector<double> at = values;
     at[index] = number;

@@ -114,7 +114,7 @@ class Fit {
   // Where one step leads. What none of the runs tells goes all the way to its prior.
   std::optional<std::vector<double>> solved(ScoreSystem system) const {
     constexpr double any = std::numeric_limits<double>::infinity();
-    calibrate_information(groups(), system);
+    calibrate(system);
     const IceSolution solution =
         solve_ice(system, fit_.parameters, fit_.numbers, {options_.smoothness, options_.amplitude}, any);
     try {
@@ -133,7 +133,7 @@ class Fit {
       report(r, "walking in the light of");
       scores_.add(point, r, count(), efficiencies, system);
     }
-    calibrate_information(groups(), system);
+    calibrate(system);
     const ProfiledSystem profiled =
         profile_efficiencies(system, efficiencies.count(), options_.efficiency_width);
     const IceSolution solution = solve_ice(profiled.system, fit_.parameters, fit_.numbers,
@@ -167,11 +167,16 @@ class Fit {
     }
   }
 
-  // By column of the system's parameters: families, and each parameter that has none.
-  std::vector<std::string> groups() const {
-    std::vector<std::string> names;
-    for (const IceParameter& p : fit_.parameters) names.push_back(p.family.empty() ? p.name : p.family);
-    return names;
+  // Information that is noise of the slopes is taken out: of combinations of parameters at one place, and of
+  // families, places, and each parameter that has neither.
+  void calibrate(ScoreSystem& system) const {
+    std::vector<std::string> places, groups;
+    for (const IceParameter& p : fit_.parameters) {
+      places.push_back(p.place);
+      groups.push_back(!p.family.empty() ? p.family : !p.place.empty() ? p.place : p.name);
+    }
+    shrink_combinations(places, system);
+    calibrate_information(groups, system);
   }
 
   void note_efficiencies(const EfficiencyColumns& columns, const ProfiledSystem& profiled,

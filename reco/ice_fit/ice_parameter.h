@@ -26,6 +26,9 @@ struct IceParameter {
   // `scale`.
   std::string family;
   double depth = 0;  // of the middle, for families over depth [m]
+  // Parameters of one effect at one place, "geometry-offset of string 80": light may show some of their
+  // combinations only.
+  std::string place = {};
   // How it changes the model: a change of its own, or a parameter of an effect of the catalogue.
   std::function<void(double number, ModelParts& model)> apply;
   std::optional<EffectSetting> effect;  // its value is the number

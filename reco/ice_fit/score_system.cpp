@@ -1,5 +1,6 @@
 #include "reco/ice_fit/score_system.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -87,6 +88,27 @@ void add_run(const RunLight& light, const RunLight& seen, const RunCounts& count
       system.noise(place(i), place(k)) += noise(i, k);
     }
   }
+}
+
+void shrink_combinations(const std::vector<std::string>& places, ScoreSystem& system) {
+  std::map<std::string, std::vector<Eigen::Index>> columns_at;
+  for (std::size_t p = 0; p < places.size(); ++p)
+    if (!places[p].empty()) columns_at[places[p]].push_back(static_cast<Eigen::Index>(p));
+  Eigen::MatrixXd shrunk = Eigen::MatrixXd::Identity(system.gap.size(), system.gap.size());
+  for (const auto& [place, columns] : columns_at) {
+    if (columns.size() < 2) continue;
+    const Eigen::MatrixXd slope = system.slope(columns, columns);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(system.information(columns, columns));
+    const Eigen::MatrixXd& directions = parts.eigenvectors();
+    const Eigen::ArrayXd confirmed = (directions.transpose() * slope * directions).diagonal(),
+                         claimed = parts.eigenvalues();
+    const Eigen::ArrayXd share = (claimed > 0).select((confirmed / claimed).max(0).min(1), 0);
+    shrunk(columns, columns) = directions * share.matrix().asDiagonal() * directions.transpose();
+  }
+  system.gap = shrunk * system.gap;
+  system.slope = shrunk * system.slope;
+  system.information = shrunk * system.information * shrunk;
+  system.noise = shrunk * system.noise * shrunk;
 }
 
 void calibrate_information(const std::vector<std::string>& groups, ScoreSystem& system) {

@@ -51,6 +51,13 @@ struct RunColumns {
 void add_run(const RunLight& light, const RunLight& seen, const RunCounts& counts, const RunColumns& columns,
              ScoreSystem& system);
 
+// Shrinks the weights of combinations of parameters that single ones are not shrunk enough for: a string's
+// displacements along x and y both change its light, that across the line to the flasher hardly does, and its
+// weights are what noise the two have. Each combination keeps the share of its information that the slopes of
+// the other half confirm. `places`: a name for each of the ice's columns; those of one name belong together,
+// those without one are left as they are.
+void shrink_combinations(const std::vector<std::string>& places, ScoreSystem& system);
+
 // Scales the information of the parameters of a group so that its diagonal adds up to that of the slopes,
 // which are too noisy to be asked one by one. `groups`: a name for each of the ice's columns.
 void calibrate_information(const std::vector<std::string>& groups, ScoreSystem& system);

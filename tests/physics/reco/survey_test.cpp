@@ -177,6 +177,41 @@ TEST_F(OfOneFlasher, AFitFindsALateClock) {
   EXPECT_GT(fit.error(0), 0.3);
 }
 
+// A string that moves across the line to the only flasher that it sees changes hardly any light. Slopes that
+// were taken at their word led 9 m along the circle about the flasher, and were sure of that to 0.6 m.
+TEST_F(OfOneFlasher, AFitDoesNotClaimWhatLightDoesNotShow) {
+  constexpr int string = 80;
+  constexpr std::size_t x = 0, y = 1;
+  const auto place = [&](int of) -> Eigen::Vector2d {
+    return model_.detector->modules()[*model_.detector->find({of, 20})].position.head<2>();
+  };
+  const Eigen::Vector2d along = (place(string) - place(36)).normalized();
+  const Eigen::Vector2d across(-along(1), along(0));
+  const Eigen::Vector2d truth = 1.5 * along;
+  const Suspect suspect{"geometry-offset", {{"string", string}}, {{{0, 1.0}}, {{1, 1.0}}, {{2, 1.0}}}, 6};
+  const std::vector<IceParameter> parameters = fit_parameters(suspect, Eigen::Vector3d::Zero(), model_);
+  Event event;
+  event.id = "36,20";
+  event.flasher = run_;
+  for (const SimulatedHit& hit : simulate_run(with_parameters(model_, parameters, {truth(x), truth(y), 0}),
+                                              request(photons_, data_stream + 20))
+                                     .hits)
+    event.hits.push_back(to_hit(hit, *model_.detector));
+
+  IceFitOptions options;
+  static_cast<RunSettings&>(options) = settings_;
+  options.judged = false;
+  const IceFit fit = fit_ice(model_, flasher_data(*model_.detector, std::vector{event}), parameters, options);
+  const Eigen::Vector2d found(fit.value(x), fit.value(y));
+  const auto error = [&](const Eigen::Vector2d& direction) {
+    return std::sqrt(direction.dot(fit.covariance.topLeftCorner(2, 2) * direction));
+  };
+  EXPECT_NEAR(found.dot(along), truth.dot(along), 3 * error(along));
+  EXPECT_LT(error(along), 0.3);
+  EXPECT_NEAR(found.dot(across), 0, 2 * error(across));
+  EXPECT_GT(error(across), 2);
+}
+
 // Two runs that tell of different ice: a fit that leaves one out finds the other's, as a fit to that one
 // alone does. What no run that is left tells is where its prior has it.
 TEST_F(OfOneFlasher, AFitWithoutARunKnowsNothingOfIt) {

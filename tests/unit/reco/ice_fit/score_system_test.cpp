@@ -1,6 +1,7 @@
 #include "reco/ice_fit/score_system.h"
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <cmath>
@@ -113,6 +114,33 @@ TEST(ScoreSystem, SlopesOfNoiseWeighLittle) {
   // Taken at face value, noise of variance 400/counts is worth 400 in each of 24 bins. Left of it is the
   // share power/(power + noise), squared: the power of pure noise is 0.2 of it at one sigma, so 0.02 or so.
   EXPECT_LT(taken, 0.06 * 24 * 400);
+}
+
+// Of two parameters at one place light shows one combination; the other's weights are noise, and go.
+TEST(ScoreSystem, CombinationsKeepWhatSlopesConfirm) {
+  const Eigen::Rotation2Dd turned(0.7);
+  const auto along = [&](double first, double second) -> Eigen::Matrix2d {
+    return turned.toRotationMatrix() * Eigen::Vector2d(first, second).asDiagonal() *
+           turned.inverse().toRotationMatrix();
+  };
+  ScoreSystem system(4);
+  system.information.setConstant(3);
+  system.information.bottomRightCorner(2, 2) = along(100, 2);
+  system.noise = system.information;
+  system.slope = system.information;
+  system.slope.bottomRightCorner(2, 2) = along(120, 0.1);
+  system.gap << 1, 2, 30, 20;
+  const ScoreSystem before = system;
+  shrink_combinations({"", "elsewhere", "here", "here"}, system);
+
+  const double share = 0.05;  // at most all of it, and a twentieth
+  EXPECT_TRUE(system.information.bottomRightCorner(2, 2).isApprox(along(100, 2 * share * share)));
+  EXPECT_TRUE(system.noise.bottomRightCorner(2, 2).isApprox(along(100, 2 * share * share)));
+  EXPECT_TRUE(system.slope.bottomRightCorner(2, 2).isApprox(along(120, 0.1 * share)));
+  EXPECT_TRUE(system.gap.tail(2).isApprox(along(1, share) * before.gap.tail(2)));
+  EXPECT_TRUE(system.gap.head(2).isApprox(before.gap.head(2)));
+  EXPECT_TRUE(system.slope.topRows(2).isApprox(before.slope.topRows(2)));
+  EXPECT_TRUE(system.information.topLeftCorner(2, 2).isApprox(before.information.topLeftCorner(2, 2)));
 }
 
 // Whatever single slopes say, a group's information adds up to theirs; other columns stay.
