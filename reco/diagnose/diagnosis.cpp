@@ -87,6 +87,14 @@ class Diagnoser {
   // Nobody knows how many steps there will be: each takes three fifths of what is left.
   static double begin(int step) { return 0.03 + 0.87 * (1 - std::pow(0.4, step)); }
 
+  // Few runs leave time for more light.
+  RunSettings settings_of_looks() const {
+    constexpr double least_in_all = 10;  // in units of the least hits of a run
+    RunSettings settings = options_;
+    settings.light.least_hits *= std::max(1.0, least_in_all / static_cast<double>(data_.runs.size()));
+    return settings;
+  }
+
   // Whether there is a significant gap.
   bool look_at(const Model& model, int step) {
     const double from = begin(step), length = begin(step + 1) - from;
@@ -95,7 +103,7 @@ class Diagnoser {
         plan_suspects(model, flasher_depths(data_, *model.detector), data_.runs.size(), options_.oversize);
     SurveyPlan survey_plan{.parameters = plan.parameters};
     survey_plan.stream = static_cast<std::uint64_t>(step);
-    const Survey survey = survey_data(model, data_, look_, survey_plan, options_, stages_.part());
+    const Survey survey = survey_data(model, data_, look_, survey_plan, settings_of_looks(), stages_.part());
     if (survey.bins == 0)
       throw NoResult("not enough light: no receiver of any flasher run sees enough to be compared");
     DiagnosisStep now;
@@ -435,10 +443,11 @@ class Diagnoser {
     }
   }
 
-  // Gives up effects that make light worse which the fit has not seen, by more than the noise of the
-  // simulations: the last one first, which may have come by what an earlier one has left. `found`: anything
-  // was ever named.
+  // Gives up effects that make light worse which the fit has not seen, by more than twice the noise of the
+  // simulations (what only one run tells of, a module near its flasher, changes it by noise alone): the last
+  // one first, which may have come by what an earlier one has left. `found`: anything was ever named.
   void measure_gaps(bool found) {
+    constexpr double too_much = 2;
     RunSettings settings = options_;
     if (found) settings.light.light *= light_of_gap, settings.light.least_hits *= light_of_gap;
     result_.folds = std::min(options_.folds, flasher_count(data_));
@@ -453,7 +462,7 @@ class Diagnoser {
       take_gaps(gaps.of(accepted_, stages_, 0.9, 0.95));
       if (is_past_asking(gaps)) break;
       const double without = gap_without_last(gaps);
-      if (result_.gap_after <= without + gaps.noise_of_differences()) break;
+      if (result_.gap_after <= without + too_much * gaps.noise_of_differences()) break;
       give_up(accepted_.effects().size() - 1,
               fmt::format("runs that were held out fit worse with it (a gap of {:.1f}) than without ({:.1f})",
                           result_.gap_after, without));
