@@ -32,6 +32,15 @@ Eigen::MatrixXd own_slopes(const LightFold& fold, const RunColumns& columns) {
   return with_nuisances(fold.slopes.array().colwise() / fold.counts.array().max(1), fold, columns);
 }
 
+// Weights in these columns, by a symmetric matrix. Rows of the slope are weights, its columns are not.
+void shrink(const std::vector<Eigen::Index>& columns, const Eigen::MatrixXd& shares, ScoreSystem& system) {
+  system.gap(columns) = (shares * system.gap(columns)).eval();
+  for (Eigen::MatrixXd* matrix : {&system.slope, &system.information, &system.noise})
+    (*matrix)(columns, Eigen::all) = (shares * (*matrix)(columns, Eigen::all)).eval();
+  for (Eigen::MatrixXd* matrix : {&system.information, &system.noise})
+    (*matrix)(Eigen::all, columns) = ((*matrix)(Eigen::all, columns) * shares).eval();
+}
+
 }  // namespace
 
 ScoreSystem& ScoreSystem::operator+=(const ScoreSystem& other) {
@@ -94,7 +103,6 @@ void shrink_combinations(const std::vector<std::string>& places, ScoreSystem& sy
   std::map<std::string, std::vector<Eigen::Index>> columns_at;
   for (std::size_t p = 0; p < places.size(); ++p)
     if (!places[p].empty()) columns_at[places[p]].push_back(static_cast<Eigen::Index>(p));
-  Eigen::MatrixXd shrunk = Eigen::MatrixXd::Identity(system.gap.size(), system.gap.size());
   for (const auto& [place, columns] : columns_at) {
     if (columns.size() < 2) continue;
     const Eigen::MatrixXd slope = system.slope(columns, columns);
@@ -103,12 +111,8 @@ void shrink_combinations(const std::vector<std::string>& places, ScoreSystem& sy
     const Eigen::ArrayXd confirmed = (directions.transpose() * slope * directions).diagonal(),
                          claimed = parts.eigenvalues();
     const Eigen::ArrayXd share = (claimed > 0).select((confirmed / claimed).max(0).min(1), 0);
-    shrunk(columns, columns) = directions * share.matrix().asDiagonal() * directions.transpose();
+    shrink(columns, directions * share.matrix().asDiagonal() * directions.transpose(), system);
   }
-  system.gap = shrunk * system.gap;
-  system.slope = shrunk * system.slope;
-  system.information = shrunk * system.information * shrunk;
-  system.noise = shrunk * system.noise * shrunk;
 }
 
 void calibrate_information(const std::vector<std::string>& groups, ScoreSystem& system) {

@@ -34,20 +34,24 @@ class OfOneFlasher : public ::testing::Test {
     run_.photons = photons_;
     run_.oversize = settings_.oversize;
     settings_.light = {4, 1e3, 1e12};
-    data_ = measured();
+    data_ = data_of({event_of(model_, request(photons_, data_stream + 1))});
     look_ = look_first(
         model_, [&](std::size_t, double photons) { return request(photons, data_stream); }, data_);
   }
   RunRequest request(double photons, std::uint64_t stream) const {
     return {run_, photons, settings_.oversize, settings_.seed, stream, 0};
   }
-  FlasherData measured() const {
+  // Light as it is measured.
+  Event event_of(const Model& model, const RunRequest& request) const {
     Event event;
-    event.id = "36,20";
+    event.id = fmt::format("{},{}", run_.module.string, run_.module.dom);
     event.flasher = run_;
-    for (const SimulatedHit& hit : simulate_run(model_, request(photons_, data_stream + 1)).hits)
+    for (const SimulatedHit& hit : simulate_run(model, request).hits)
       event.hits.push_back(to_hit(hit, *model_.detector));
-    return flasher_data(*model_.detector, std::vector{event});
+    return event;
+  }
+  FlasherData data_of(const std::vector<Event>& events) const {
+    return flasher_data(*model_.detector, events);
   }
 
   const Model model_ = load_model({});
@@ -62,11 +66,7 @@ TEST_F(OfOneFlasher, DarkNoiseIsNotTakenForLight) {
   constexpr double readouts = 100, length = 1e4, rate = 600;  // [ns], [Hz]
   RunRequest noisy = request(photons_, data_stream + 1);
   noisy.noise = {0, length, readouts / photons_, rate};
-  Event event;
-  event.flasher = run_;
-  for (const SimulatedHit& hit : simulate_run(model_, noisy).hits)
-    event.hits.push_back(to_hit(hit, *model_.detector));
-  FlasherData data = flasher_data(*model_.detector, std::vector{event});
+  FlasherData data = data_of({event_of(model_, noisy)});
   RunData& run = data.runs[0];
   run.repeats = readouts, run.noise_rate = rate, run.first = 0, run.last = length;
   const double light = data_.runs[0].charge, noise = run.charge - light;  // from the same photons
@@ -190,18 +190,13 @@ TEST_F(OfOneFlasher, AFitDoesNotClaimWhatLightDoesNotShow) {
   const Eigen::Vector2d truth = 1.5 * along;
   const Suspect suspect{"geometry-offset", {{"string", string}}, {{{0, 1.0}}, {{1, 1.0}}, {{2, 1.0}}}, 6};
   const std::vector<IceParameter> parameters = fit_parameters(suspect, Eigen::Vector3d::Zero(), model_);
-  Event event;
-  event.id = "36,20";
-  event.flasher = run_;
-  for (const SimulatedHit& hit : simulate_run(with_parameters(model_, parameters, {truth(x), truth(y), 0}),
-                                              request(photons_, data_stream + 20))
-                                     .hits)
-    event.hits.push_back(to_hit(hit, *model_.detector));
+  const FlasherData data = data_of({event_of(with_parameters(model_, parameters, {truth(x), truth(y), 0}),
+                                             request(photons_, data_stream + 20))});
 
   IceFitOptions options;
   static_cast<RunSettings&>(options) = settings_;
   options.judged = false;
-  const IceFit fit = fit_ice(model_, flasher_data(*model_.detector, std::vector{event}), parameters, options);
+  const IceFit fit = fit_ice(model_, data, parameters, options);
   const Eigen::Vector2d found(fit.value(x), fit.value(y));
   const auto error = [&](const Eigen::Vector2d& direction) {
     return std::sqrt(direction.dot(fit.covariance.topLeftCorner(2, 2) * direction));
@@ -215,22 +210,17 @@ TEST_F(OfOneFlasher, AFitDoesNotClaimWhatLightDoesNotShow) {
 // Two runs that tell of different ice: a fit that leaves one out finds the other's, as a fit to that one
 // alone does. What no run that is left tells is where its prior has it.
 TEST_F(OfOneFlasher, AFitWithoutARunKnowsNothingOfIt) {
-  FlasherData data;
   const double truth[2] = {1.08, 0.92};
   const ModuleId flashers[2] = {{36, 20}, {45, 40}};
-  std::vector<Event> events(2);
+  std::vector<Event> events;
   for (std::size_t r = 0; r < 2; ++r) {
     const EffectSetting setting{"absorption-scale", "factor", truth[r]};
     ModelParts parts = parts_of(model_);
     apply_effects({&setting, 1}, parts);
     run_.module = flashers[r];
-    for (const SimulatedHit& hit :
-         simulate_run(freeze(std::move(parts)), request(photons_, data_stream + 10 + r)).hits)
-      events[r].hits.push_back(to_hit(hit, *model_.detector));
-    events[r].flasher = run_;
-    events[r].id = fmt::format("{}", r);
+    events.push_back(event_of(freeze(std::move(parts)), request(photons_, data_stream + 10 + r)));
   }
-  data = flasher_data(*model_.detector, events);
+  const FlasherData data = data_of(events);
 
   std::vector<IceParameter> parameters{effect_parameter("absorption-scale", model_)};
   parameters.push_back(layer_factor(LayerFamily::scattering, 1720, 1760, model_));  // of the first flasher
