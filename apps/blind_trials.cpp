@@ -20,6 +20,7 @@
 #include "apps/text_table.h"
 #include "data/base/error.h"
 #include "propagation/model_hash.h"
+#include "propagation/sources/flasher.h"
 #include "reco/diagnose/blind_trials.h"
 
 namespace floe {
@@ -189,7 +190,10 @@ std::vector<RunOfTrials> runs_of(const std::string& file) {
                        fmt::format("a measured {} of {},{}", run.beam ? "beam" : "pulse",
                                    run.run.module.string, run.run.module.dom),
                        "widths of beam and pulse, which are all that trials simulate");
-    runs.push_back({run.run, static_cast<double>(run.repeats)});
+    RunOfTrials trial{run.run, static_cast<double>(run.repeats)};
+    // As floe simulate has it: the file counts a whole line of light, of which the middle is simulated.
+    if (!run.whole_line) trial.run.photons *= reference_led_share;
+    runs.push_back(trial);
   }
   return runs;
 }

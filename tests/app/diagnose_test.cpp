@@ -77,7 +77,7 @@ TEST_F(Diagnose, IsSilentWhereNothingIsMissing) {
 
 TEST_F(Diagnose, IsPutToTheTestByBlindTrials) {
   write_bytes(folder_.path() / "runs.toml",
-              "[defaults]\nphotons = 1e8\n[[run]]\nmodule = [36, 20]\n[[run]]\nmodule = [45, 40]\n");
+              "[defaults]\nphotons = 1.5e8\n[[run]]\nmodule = [36, 20]\n[[run]]\nmodule = [45, 40]\n");
   const std::string command =
       "blind-trials runs.toml --trials 1 --nothing 2 --least 8 --most 15 --seed 3 --light 4 --full-nothing 1 "
       "--sealed sealed.json --rows rows.jsonl --json ";
