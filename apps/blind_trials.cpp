@@ -204,21 +204,23 @@ Json heading_of(const Model& base, const std::vector<RunOfTrials>& runs, const B
   for (const auto& [run, repeats] : runs)
     flashers.push_back({run.module.string, run.module.dom, name_of(run.leds), run.orientation, run.wavelength,
                         run.beam_width, run.pulse_width, run.photons, repeats});
-  return {{"journal", "floe blind-trials"},
-          {"version", FLOE_VERSION},
-          {"diagnosis", diagnosis_revision},
-          {"seed", options.seed},
-          {"effects", options.effects},
-          {"trials", options.trials},
-          {"nothing", options.nothing},
-          {"full", {options.full, options.full_nothing, options.pairs, options.outside}},
-          {"least", options.significance.least},
-          {"most", options.significance.most},
-          {"alpha", options.alpha},
-          {"light", options.light.light},
-          {"oversize", options.oversize},
-          {"model", model_hash(base)},
-          {"runs", flashers}};
+  Json heading = {{"journal", "floe blind-trials"},
+                  {"version", FLOE_VERSION},
+                  {"diagnosis", diagnosis_revision},
+                  {"seed", options.seed},
+                  {"effects", options.effects},
+                  {"trials", options.trials},
+                  {"nothing", options.nothing},
+                  {"full", {options.full, options.full_nothing, options.pairs, options.outside}},
+                  {"least", options.significance.least},
+                  {"most", options.significance.most},
+                  {"alpha", options.alpha},
+                  {"light", options.light.light},
+                  {"oversize", options.oversize},
+                  {"model", model_hash(base)},
+                  {"runs", flashers}};
+  if (options.full_least_hits) heading["full_least_hits"] = *options.full_least_hits;
+  return heading;
 }
 
 BlindTrials run_resumable(const BlindTrialsCommand& command, const Model& base,
@@ -310,6 +312,9 @@ void add_blind_trials(CLI::App& floe) {
       app, "--light", "RATIO", {0.1, 1000},
       "Simulated light of the survey, in units of the data's; whole diagnoses have that of floe diagnose",
       command->options.light.light);
+  add_number(app, "--least-hits", "N", {100, 1e8},
+             "Simulated hits of a run in whole diagnoses, at least; as floe diagnose if not named",
+             [&options](double hits) { options.full_least_hits = hits; });
   app.add_option("--rows", command->rows, "Keeps every trial; the same command goes on where it was stopped")
       ->type_name("FILE.jsonl");
   app.add_option("--sealed", command->sealed, "What is hidden, written before anything is asked")

@@ -185,7 +185,8 @@ class Trials {
         full.outside ? *full.outside
                      : light_.data_of(light_.hits(full.model, full_stream + number * runs_.size(), &survey));
     DiagnosisOptions options;
-    const LightBudget light = options.light;
+    LightBudget light = options.light;
+    if (options_.full_least_hits) light.least_hits = *options_.full_least_hits;
     static_cast<RunSettings&>(options) = options_;
     options.light = light;
     // Another survey for each: an unlucky one would mislead them all.

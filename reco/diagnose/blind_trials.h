@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -34,7 +35,8 @@ struct BlindTrialOptions : RunSettings {
   int pairs = 0;         // whole diagnoses of two effects hidden together
   int outside = 0;       // and of what the catalogue does not have (outside_effects.h)
   int folds = 3;         // of whole diagnoses
-  SignificanceRange significance{5, 12};  // of what is hidden
+  std::optional<double> full_least_hits = {};  // of theirs, LightBudget::least_hits
+  SignificanceRange significance{5, 12};       // of what is hidden
   double alpha = 0.01, floor = 0.005;
   int draws = 300;
   // Of the survey (see PairPlan): it serves all trials, so that its slopes may be good.

@@ -79,7 +79,8 @@ TEST_F(Diagnose, IsPutToTheTestByBlindTrials) {
   write_bytes(folder_.path() / "runs.toml",
               "[defaults]\nphotons = 1.5e8\n[[run]]\nmodule = [36, 20]\n[[run]]\nmodule = [45, 40]\n");
   const std::string command =
-      "blind-trials runs.toml --trials 1 --nothing 2 --least 8 --most 15 --seed 3 --light 4 --full-nothing 1 "
+      "blind-trials runs.toml --trials 1 --nothing 2 --least 8 --most 15 --seed 3 --light 2 --full-nothing 1 "
+      "--least-hits 1000 "
       "--sealed sealed.json --rows rows.jsonl --json ";
   const Outcome outcome = floe(command + "trials.json");
   ASSERT_EQ(outcome.code, 0) << outcome.err;

@@ -28,8 +28,9 @@ class FitIce : public ::testing::Test {
   }
   Json result() const { return Json::parse(text_of("fitted/result.json")); }
   // Two runs, with the options of floe simulate; as text, so that they are easy to spoil.
-  void simulate(const std::string& options) const {
-    write("runs.toml", "[defaults]\nphotons = 3e8\n[[run]]\nmodule = [36, 20]\n[[run]]\nmodule = [45, 40]\n");
+  void simulate(const std::string& options, const std::string& photons = "3e8") const {
+    write("runs.toml",
+          "[defaults]\nphotons = " + photons + "\n[[run]]\nmodule = [36, 20]\n[[run]]\nmodule = [45, 40]\n");
     floe_well("simulate --flashers runs.toml --oversize 16 --seed 5 --quiet -o runs.h5 " + options);
     floe_well("export runs.h5 -o runs.hits");
   }
@@ -154,7 +155,7 @@ TEST_F(FitIce, LeavesOutWhatCannotBeRightAndFitsTheRest) {
 }
 
 TEST_F(FitIce, LadderRefitsFiveModelsAndHoldsEveryRunOutOnce) {
-  simulate("");
+  simulate("", "2e8");
   const Outcome outcome =
       floe_well("ladder runs.h5 --light 1 --least-hits 1000 --oversize 16 --json ladder.json");
   const Json ladder = Json::parse(text_of("ladder.json"));
