@@ -12,7 +12,7 @@ namespace {
 constexpr double close = 2;          // differences of -ln L, in units of their noise
 constexpr double behind = 1;         // likewise: is believed if its own fit, too, found little
 constexpr double little = 0.7;       // of the other's chi-square
-constexpr double undecided = 6;      // differences of chi-square
+constexpr double undecided = 6;      // differences of chi-square, less one for each parameter
 constexpr double beyond_doubt = 25;  // likewise: not worth more rounds
 constexpr double needed = 9;         // chi-square of an effect that is there beside the other
 constexpr double held = 1e-3;  // width of a prior, in the parameter's scale, that leaves a band where it is
@@ -83,8 +83,9 @@ void hold_contest(const Model& base, double noise, const FitBeside& fit, std::ve
   for (std::size_t i = 1; i < candidates.size() && cost(candidates[i]) < limit; ++i) try {
       if (is_outdone(candidates[i], candidates[best], noise)) continue;
       const auto [leader, challenger] = duel(candidates[best], candidates[i], base, fit);
-      const bool stays =
-          leader - parameters_in(candidates[best].trial) >= challenger - parameters_in(candidates[i].trial);
+      const double lead =
+          leader - parameters_in(candidates[best].trial) - challenger + parameters_in(candidates[i].trial);
+      const bool stays = lead > -undecided;
       const std::size_t loser = stays ? i : best;
       if (!stays) {
         // Those that the last best has beaten have not met the new one: narrow losers may be as good.
@@ -94,7 +95,7 @@ void hold_contest(const Model& base, double noise, const FitBeside& fit, std::ve
         }
         best = i;
       }
-      candidates[loser].trial.lost = stays ? Duel{leader, challenger} : Duel{challenger, leader};
+      candidates[loser].trial.lost = stays ? Duel{leader, challenger, lead} : Duel{challenger, leader, -lead};
     } catch (const InputError&) {
       candidates[i].trial.untold = true;  // no physical ice on its way: the order of -ln L stays
     }
@@ -103,7 +104,7 @@ void hold_contest(const Model& base, double noise, const FitBeside& fit, std::ve
 }
 
 bool lost_narrowly(const Trial& trial) {
-  return trial.untold || (trial.lost && trial.lost->winner - trial.lost->loser < undecided);
+  return trial.untold || (trial.lost && trial.lost->lead < undecided);
 }
 
 bool is_there_as_well(const Trial& trial) {

@@ -14,6 +14,9 @@ namespace floe {
 // What two effects add to each other in a joint fit: chi-squares about the model without the one of them.
 struct Duel {
   double winner = 0, loser = 0;
+  // By what the winner leads, a unit taken off for each parameter. Below 0 where the loser adds more, but not
+  // by so much that it would overrule the likelihood.
+  double lead = 0;
 };
 
 // A fit of one suspect, beside all that is in the model already.
@@ -47,7 +50,8 @@ double chi_square_of(const std::vector<IceParameter>& parameters, const IceFit& 
 // Puts the best first. -ln L decides, with half a unit for each parameter, where the differences are larger
 // than twice the `noise` of simulations, or than this noise and the chi-square of the one that is behind is
 // less than 70% of the other's; candidates that are closer are fitted together, two at a time, and the one
-// that adds more to the other wins. A duel ends early when the difference is beyond doubt.
+// that adds more to the other wins. Where they add nearly as much, the order of -ln L stays. A duel ends
+// early when the difference is beyond doubt.
 void hold_contest(const Model& base, double noise, const FitBeside& fit, std::vector<Candidate>& candidates);
 
 // Whether the duel that it lost was too close to tell it from the winner, or there could be none.

@@ -22,7 +22,7 @@
 namespace floe {
 
 // Changes whenever results of diagnoses or of their trials do.
-constexpr int diagnosis_revision = 13;
+constexpr int diagnosis_revision = 14;
 
 struct DiagnosisOptions : RunSettings {
   DiagnosisOptions() { light = {2, 2e4, 2e11}; }

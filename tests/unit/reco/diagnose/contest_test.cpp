@@ -101,6 +101,34 @@ TEST_F(Contest, WhatBothCouldBeIsLostNarrowly) {
   EXPECT_FALSE(is_there_as_well(candidates[1].trial));
 }
 
+// Seen in trials: a late string, taken for one that has moved by a duel of 11.5 to 5.0. Three parameters add
+// more by chance than one does, and what a duel leaves open is as -ln L has it.
+TEST_F(Contest, WhoAddsHardlyMoreDoesNotOverruleTheLikelihood) {
+  auto candidates = rivals(186);
+  for (int more = 0; more < 2; ++more) {
+    candidates[0].trial.parameters.push_back(candidates[0].trial.parameters.front());
+    candidates[0].fit.numbers.push_back(0.6);
+  }
+  const auto ends_at = [&](double challenger) {
+    auto met = candidates;
+    hold_contest(
+        base_, noise_,
+        [&](const auto&, const auto&) {
+          return fit_with({0.1, 0.6 - 0.1 * challenger, 0.6, 0.6}, {0.05, 0.1, 0.1, 0.1});  // chi-square 4
+        },
+        met);
+    return met;
+  };
+  const auto open = ends_at(3.4);  // 11.6, with two parameters more
+  EXPECT_EQ(open[0].trial.suspect.effect, "scattering-anisotropy");
+  EXPECT_TRUE(lost_narrowly(open[1].trial));
+  EXPECT_NEAR(open[1].trial.lost->lead, 4 - 11.56 + 2, 1e-9);
+  const auto decided = ends_at(3.6);
+  EXPECT_EQ(decided[0].trial.suspect.effect, "absorption-anisotropy");
+  EXPECT_NEAR(decided[1].trial.lost->lead, 12.96 - 4 - 2, 1e-9);
+  EXPECT_FALSE(lost_narrowly(decided[1].trial));
+}
+
 // B loses narrowly to A, which C beats: B has not met C, and may be as good.
 TEST_F(Contest, WhoLostNarrowlyToABeatenLeaderIsNotTold) {
   auto candidates = rivals(186);
