@@ -37,7 +37,7 @@ std::optional<Problem> module_problem(ModuleId module) {
   return {};
 }
 
-constexpr double rounding = 1 + 1e-12;  // of a conversion from degrees
+constexpr double degree_rounding = 1 + 1e-12;  // of a conversion from degrees
 
 }  // namespace
 
@@ -61,9 +61,9 @@ std::optional<Problem> problem_of(const Particle& particle) {
     return Problem{fmt::format("position ({}, {}, {})", particle.position.x(), particle.position.y(),
                                particle.position.z()),
                    "finite coordinates [m]"};
-  if (!(particle.zenith >= 0 && particle.zenith <= pi * rounding))
+  if (!(particle.zenith >= 0 && particle.zenith <= pi * degree_rounding))
     return number_problem("zenith", particle.zenith / degree, "0 to 180 [deg]");
-  if (!(particle.azimuth >= 0 && particle.azimuth <= 2 * pi * rounding))
+  if (!(particle.azimuth >= 0 && particle.azimuth <= 2 * pi * degree_rounding))
     return number_problem("azimuth", particle.azimuth / degree, "0 to 360 [deg]");
   if (!std::isfinite(particle.length) || particle.length < 0)
     return number_problem("length", particle.length, "a finite length, not negative [m]");
@@ -76,12 +76,12 @@ std::optional<Problem> problem_of(const Particle& particle) {
 std::optional<Problem> problem_of(const FlasherRun& run) {
   if (auto problem = module_problem(run.module)) return problem;
   if (!run.leds.valid()) return Problem{"LEDs " + name_of(run.leds), std::string(known_led_patterns)};
-  if (!std::isnan(run.orientation) && !(std::abs(run.orientation) <= 2 * pi * rounding))
+  if (!std::isnan(run.orientation) && !(std::abs(run.orientation) <= 2 * pi * degree_rounding))
     return number_problem("orientation", run.orientation / degree,
                           "-360 to 360 [deg], the azimuth of LED 1 and of LED 7");
   if (!(run.wavelength >= 300 && run.wavelength <= 600))
     return number_problem("wavelength", run.wavelength, "300 to 600 [nm]");
-  if (!(run.beam_width >= 0 && run.beam_width <= pi / 2 * rounding))
+  if (!(run.beam_width >= 0 && run.beam_width <= pi / 2 * degree_rounding))
     return number_problem("beam width", run.beam_width / degree, "0 to 90 [deg]");
   if (!(run.pulse_width >= 0 && run.pulse_width <= 1000))
     return number_problem("pulse width", run.pulse_width, "0 to 1000 [ns]");

@@ -10,7 +10,7 @@ namespace floe {
 
 namespace {
 
-constexpr float rounding = 0.01F;  // of single precision, some kilometres from the origin [m]
+constexpr float column_rounding = 0.01F;  // of single precision, some kilometres from the origin [m]
 
 // Whether a segment's nearest point to a vertical line through (x, y) is within `distance` of it.
 bool passes_line(const Vec3f& origin, const Vec3f& direction, float length, float x, float y,
@@ -27,7 +27,7 @@ bool passes_line(const Vec3f& origin, const Vec3f& direction, float length, floa
 
 ColumnFinder::ColumnFinder(const Detector& detector, double oversize)
     : oversize_(static_cast<float>(oversize)),
-      reach_(static_cast<float>(oversize * module_radius) + rounding),
+      reach_(static_cast<float>(oversize * module_radius) + column_rounding),
       places_(detector.size()) {
   check_oversize(oversize);
   for (const ModuleColumn& column : columns_of(detector))
@@ -48,7 +48,7 @@ void ColumnFinder::find(std::uint32_t module, const Vec3f& origin, const Vec3f& 
                         std::vector<ModuleCrossing>& found) const {
   // A module is met where the segment is nearest to its centre, at most a module's radius beyond the end.
   const Place& start = places_[module];
-  const float longer = length + static_cast<float>(module_radius) + rounding;
+  const float longer = length + static_cast<float>(module_radius) + column_rounding;
   if (!passes_line(origin, direction, longer, start.centre.x(), start.centre.y(),
                    reach_ + start.column_radius))
     return;
