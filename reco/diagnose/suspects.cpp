@@ -214,7 +214,9 @@ std::vector<IceParameter> parameters_from(const Suspect& suspect, const Eigen::V
     for (const char* name : {"depth", "width", "factor"})
       parameters.push_back(effect_parameter(suspect.effect + "." + name, base));
     parameters[0].start = suspect.place.at("depth");
-    parameters[1].start = suspect.place.at("width");
+    // Within one layer of the table, width and factor are the same.
+    parameters[1].low = base.ice->layer_step();
+    parameters[1].start = std::max(parameters[1].low, suspect.place.at("width"));
     parameters[2].start = std::clamp(std::exp(amplitudes(0)), 0.4, 2.5);
   } else if (suspect.place.count("string")) {
     Eigen::Index i = 0;

@@ -227,6 +227,8 @@ TEST_F(Suspects, BecomeParametersOfAFit) {
   const auto of_band = fit_parameters(band, Eigen::VectorXd::Constant(1, std::log(1.5)), model_);
   ASSERT_EQ(of_band.size(), 3u);
   EXPECT_EQ(of_band[0].start, 1780);
+  EXPECT_EQ(of_band[1].start, 40);
+  EXPECT_EQ(of_band[1].low, model_.ice->layer_step());  // thinner is the same as a smaller factor
   EXPECT_NEAR(of_band[2].start, 1.5, 1e-12);
   EXPECT_EQ(text_of(band), "absorption-layer at 1760-1800 m");
 
