@@ -19,8 +19,8 @@ rm -rf "$reports"
 mkdir -p "$reports"
 echo "== Running the tests"
 status=0
-OMP_WAIT_POLICY=passive GTEST_OUTPUT="xml:$reports/" ctest --test-dir "$floe_build" --parallel 2 --output-on-failure --no-tests=error \
-  --output-junit "$reports/ctest.junit" "$@" || status=$?
+OMP_WAIT_POLICY=passive GTEST_OUTPUT="xml:$reports/" ctest --test-dir "$floe_build" --parallel 2 \
+  --output-on-failure --no-tests=error --output-junit "$reports/ctest.junit" "$@" || status=$?
 
 echo
 echo "Build $((built - started)) s, tests $((SECONDS - built)) s."
