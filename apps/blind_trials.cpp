@@ -20,7 +20,6 @@
 #include "apps/text_table.h"
 #include "data/base/error.h"
 #include "propagation/model_hash.h"
-#include "propagation/sources/flasher.h"
 #include "reco/diagnose/blind_trials.h"
 
 namespace floe {
@@ -191,8 +190,7 @@ std::vector<RunOfTrials> runs_of(const std::string& file) {
                                    run.run.module.string, run.run.module.dom),
                        "widths of beam and pulse, which are all that trials simulate");
     RunOfTrials trial{run.run, static_cast<double>(run.repeats)};
-    // As floe simulate has it: the file counts a whole line of light, of which the middle is simulated.
-    if (!run.whole_line) trial.run.photons *= reference_led_share;
+    trial.run.photons *= run.simulated_share();
     runs.push_back(trial);
   }
   return runs;

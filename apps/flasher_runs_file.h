@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "data/flasher_run.h"
+#include "propagation/sources/flasher.h"
 #include "propagation/sources/measured_curve.h"
 
 namespace floe {
@@ -16,6 +17,9 @@ struct RunToSimulate {
   // Whether the LED's line is simulated whole, because its wavelength was named. Otherwise the middle of the
   // line at 405 nm is (reference_led_line).
   bool whole_line = false;
+  // Of the run's photons, which count a whole line.
+  double simulated_share() const { return whole_line ? 1 : reference_led_share; }
+
   // Measured, in place of the widths of `run`, which are then equivalents.
   std::optional<MeasuredCurve> beam = {}, pulse = {};
 };

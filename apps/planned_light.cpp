@@ -140,7 +140,7 @@ PlannedEvent plan_flasher(const FlasherRequest& request, const Simulator& simula
 
 PlannedEvent plan_run(const RunToSimulate& planned, const std::string& id, const Simulator& simulator) {
   FlasherSettings settings = flasher_settings(planned.run);
-  settings.photons *= planned.repeats * (planned.whole_line ? 1 : reference_led_share);
+  settings.photons *= planned.repeats * planned.simulated_share();
   settings.beam = planned.beam;
   settings.pulse = planned.pulse;
   PlannedEvent event{id, {}, {}, static_cast<double>(planned.repeats), planned.run};
