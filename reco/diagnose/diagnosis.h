@@ -22,7 +22,7 @@
 namespace floe {
 
 // Changes whenever results of diagnoses or of their trials do.
-constexpr int diagnosis_revision = 14;
+constexpr int diagnosis_revision = 15;
 
 struct DiagnosisOptions : RunSettings {
   DiagnosisOptions() { light = {2, 2e4, 2e11}; }
