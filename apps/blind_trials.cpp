@@ -131,6 +131,7 @@ std::string confusion(const BlindTrials& trials) {
   if (hidden > 0)
     text += fmt::format("Right name or group: {} of {} ({:.0f}%).\n", right, hidden, 100.0 * right / hidden);
   for (const auto& [effect, why] : trials.not_tried) text += fmt::format("{}: {}\n", effect, why);
+  for (const std::string& remark : trials.remarks) text += remark + ".\n";
   return text;
 }
 
@@ -261,6 +262,7 @@ void run_trials(const BlindTrialsCommand& command) {
   for (const BlindTrial& trial : trials.trials) result["trials"].push_back(to_json(trial));
   result["full"] = Json::array();
   for (const FullTrial& trial : trials.full) result["full"].push_back(to_json(trial));
+  result["not_tried"] = trials.not_tried, result["remarks"] = trials.remarks;
   json.write(json_text(result));
   json.commit();
   if (!command.output.quiet)

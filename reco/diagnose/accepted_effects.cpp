@@ -132,8 +132,12 @@ void AcceptedEffects::take(const IceFit& fit) {
       effect.values.push_back(fit.value(i));
       effect.errors.push_back(fit.error(i));
     }
-    if (is_layered(effect) && effect.parameters.front().logarithmic)
-      take_mean(fit, first, effect);
+    const bool by_factors = is_layered(effect) && effect.parameters.front().logarithmic;
+    if (by_factors) effect.mean = mean_of(effect, fit, first);
+    // Where the base has no birefringence, its layers are factors of the published strength, of which that
+    // would be 0: the mean says how far away it is.
+    if (by_factors && !base_.ice->tables().configuration.birefringence)
+      effect.significance = effect.mean->value / effect.mean->error;
     else
       effect.significance =
           sigmas_of(ln_chi_square_probability(chi_square_of(effect.parameters, fit, first, base_),
@@ -147,17 +151,13 @@ void AcceptedEffects::take(const IceFit& fit) {
   }
 }
 
-void AcceptedEffects::take_mean(const IceFit& fit, std::size_t first, NamedEffect& effect) const {
+NamedEffect::Mean AcceptedEffects::mean_of(const NamedEffect& effect, const IceFit& fit, std::size_t first) {
   const auto at = static_cast<Eigen::Index>(first),
              count = static_cast<Eigen::Index>(effect.parameters.size());
   Eigen::VectorXd share(count);
   for (Eigen::Index i = 0; i < count; ++i)
     share(i) = effect.values[static_cast<std::size_t>(i)] / static_cast<double>(count);
-  effect.mean = {"strength", share.sum(),
-                 std::sqrt(share.dot(fit.covariance.block(at, at, count, count) * share))};
-  // Where the base has none, every factor would be 0 without the effect, and 1 where it has some.
-  const double without = base_.ice->tables().configuration.birefringence ? 1 : 0;
-  effect.significance = std::abs(effect.mean->value - without) / effect.mean->error;
+  return {"strength", share.sum(), std::sqrt(share.dot(fit.covariance.block(at, at, count, count) * share))};
 }
 
 }  // namespace floe

@@ -69,7 +69,7 @@ class AcceptedEffects {
  private:
   std::size_t first_parameter(std::size_t effect) const;
   std::size_t layer_count(const IceFit& fit) const;
-  void take_mean(const IceFit& fit, std::size_t first, NamedEffect& effect) const;
+  static NamedEffect::Mean mean_of(const NamedEffect& effect, const IceFit& fit, std::size_t first);
 
   const Model& base_;
   std::vector<NamedEffect> effects_;

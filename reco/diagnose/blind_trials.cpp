@@ -17,6 +17,7 @@
 #include "reco/diagnose/rivals.h"
 #include "reco/diagnose/score_test.h"
 #include "reco/diagnose/score_values.h"
+#include "reco/ice_fit/held_out_runs.h"
 
 namespace floe {
 
@@ -52,7 +53,7 @@ class Trials {
         },
         data);
     const SuspectPlan plan =
-        plan_suspects(base_, flasher_depths(data, *base_.detector), data.runs.size(), options_.oversize);
+        plan_suspects(base_, flasher_depths(data, *base_.detector), flasher_count(data), options_.oversize);
     SurveyPlan survey_plan{.parameters = plan.parameters, .pair_light = options_.pair_light};
     const Survey survey = survey_data(base_, data, look, survey_plan, options_,
                                       [this](double fraction, const std::string& text) {
@@ -130,9 +131,13 @@ class Trials {
       const Hidden& h = *effects[static_cast<std::size_t>(t)];
       plan.push_back({{h.effect}, h.model, {}});
     }
+    tell_shortage(options_.full, plan.size(), "one effect", "are hidden in the trials: more trials would do");
     for (int t = 0; t < options_.full_nothing; ++t) plan.push_back({{{}}, base_, {}});
+    const std::size_t before_pairs = plan.size();
     for (int t = 0; t < options_.pairs; ++t)
       if (auto pair = draw_pair(effects)) plan.push_back(std::move(*pair));
+    tell_shortage(options_.pairs, plan.size() - before_pairs, "two effects",
+                  "were found that make physical ice together and are of two kinds");
     if (options_.outside == 0) return plan;
     const ExpectedFit right = expected_fit(survey, draws());
     std::vector<FlasherRun> flashers;
@@ -142,6 +147,12 @@ class Trials {
     for (const Full& full : plan)
       if (full.outside) result_.not_tried.erase(full.hidden.front().effect);
     return plan;
+  }
+
+  void tell_shortage(int wanted, std::size_t found, const char* what, const char* why) {
+    if (static_cast<int>(found) < wanted)
+      result_.remarks.push_back(
+          fmt::format("{} whole diagnoses of {} were asked for, and {} {}", wanted, what, found, why));
   }
 
   // As visible as other effects have to be.
@@ -192,7 +203,7 @@ class Trials {
     // Another survey for each: an unlucky one would mislead them all.
     options.seed = options_.seed * 1000003 + number + 1;
     options.alpha = options_.alpha, options.floor = options_.floor, options.draws = options_.draws;
-    options.folds = std::min(options_.folds, static_cast<int>(runs_.size()));
+    options.folds = std::min(options_.folds, flasher_count(data));
     return full_trial(base_, full.hidden, full.outside.has_value(), data, options,
                       [&](double fraction, const std::string& text) {
                         report(fraction, fmt::format("diagnosis {} of {}: {}", number + 1, count, text));

@@ -60,6 +60,7 @@ struct BlindTrials {
   std::vector<FullTrial> full;
   std::vector<SeenAbove> power;
   std::map<std::string, std::string> not_tried;  // effects that no light of these runs shows, and why
+  std::vector<std::string> remarks;              // fewer trials than were asked for, and why
   double seconds = 0;
 };
 

@@ -13,7 +13,7 @@ constexpr double close = 2;          // differences of -ln L, in units of their 
 constexpr double behind = 1;         // likewise: is believed if its own fit, too, found little
 constexpr double little = 0.7;       // of the other's chi-square
 constexpr double undecided = 6;      // differences of chi-square, less one for each parameter
-constexpr double beyond_doubt = 25;  // likewise: not worth more rounds
+constexpr double beyond_doubt = 25;  // differences of chi-square: not worth more rounds
 constexpr double needed = 9;         // chi-square of an effect that is there beside the other
 constexpr double held = 1e-3;  // width of a prior, in the parameter's scale, that leaves a band where it is
 

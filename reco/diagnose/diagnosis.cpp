@@ -100,12 +100,13 @@ class Diagnoser {
     const double from = begin(step), length = begin(step + 1) - from;
     stages_.begin(from, from + length * 0.4, step == 0 ? "looking for a gap" : "looking again");
     const SuspectPlan plan =
-        plan_suspects(model, flasher_depths(data_, *model.detector), data_.runs.size(), options_.oversize);
+        plan_suspects(model, flasher_depths(data_, *model.detector), flasher_count(data_), options_.oversize);
     SurveyPlan survey_plan{.parameters = plan.parameters};
     survey_plan.stream = static_cast<std::uint64_t>(step);
     const Survey survey = survey_data(model, data_, look_, survey_plan, settings_of_looks(), stages_.part());
     if (survey.bins == 0)
       throw NoResult("not enough light: no receiver of any flasher run sees enough to be compared");
+    if (leave_out_dim_runs(survey)) return look_at(model, step);
     DiagnosisStep now;
     judge_fit(survey, now);
     const std::vector<Suspect> suspects = suspects_of(survey, plan);
@@ -119,6 +120,18 @@ class Diagnoser {
     neg_llh_so_far_.reset();
     const DiagnosisStep& last = result_.steps.back();
     return last.scores.p_value < options_.alpha / 2 || last.p_of_fit < options_.alpha / 2;
+  }
+
+  // They would count as flashers that tell of their ice. Whether there were any.
+  bool leave_out_dim_runs(const Survey& survey) {
+    const std::size_t before = data_.runs.size();
+    for (std::size_t r = before; r-- > 0;)
+      if (survey.runs[r].bins.size() == 0)
+        leave_out_run(r, "no receiver sees enough light to be compared", data_, look_);
+    if (data_.runs.size() == before) return false;
+    result_.left_out = data_.left_out;
+    judge_.emplace(base_, data_, look_, options_, judge_stream);
+    return true;
   }
 
   // Of all that may become a group.
@@ -324,6 +337,7 @@ class Diagnoser {
         result_.remarks.push_back(
             fmt::format("{} can hardly be told from {}", text_of(rival.suspect), text_of(trial.suspect)));
     accepted_.add(std::move(named), fit);
+    found_ = true;
     now.added = accepted_.effects().size() - 1;
     retest();
     // What else is missing hides what layers differ in: asked again with every effect that comes in.
@@ -334,7 +348,7 @@ class Diagnoser {
 
   // Grains differ from layer to layer, and with them the strength of birefringence (arXiv:2107.08692).
   void refine_by_layers(std::size_t birefringence) {
-    const DepthRange range = layers_of(flasher_depths(data_, *base_.detector), data_.runs.size());
+    const DepthRange range = layers_of(flasher_depths(data_, *base_.detector), flasher_count(data_));
     if (range.groups < 2) return;
     stages_.begin(stages_.from(), stages_.to(), "fitting birefringence layer by layer");
     try {
@@ -397,17 +411,16 @@ class Diagnoser {
   void finish(bool unexplained) {
     // Where all that may be added still leaves a gap, each has taken a part of what none of them is.
     const std::size_t named = accepted_.effects().size(), looks = result_.steps.size();
-    const bool found = named > 0;
     if (unexplained && looks > static_cast<std::size_t>(options_.most_effects) && named > 1)
       while (!accepted_.empty())
         give_up(0, fmt::format("{} effects together leave a gap, and none of them names it", named));
-    measure_gaps(found);
+    measure_gaps();
     if (!accepted_.empty() && !result_.looked_at_improved) {
       look_at(accepted_.model(), options_.most_effects + 1);
       result_.looked_at_improved = true;
     }
     // A gap whose names were given up is there all the same.
-    if (found) unexplained = unexplained || accepted_.empty() || *result_.p_of_rest < options_.alpha / 2;
+    if (found_) unexplained = unexplained || accepted_.empty() || *result_.p_of_rest < options_.alpha / 2;
     result_.improved = accepted_.model();
     result_.effects = accepted_.effects();
     for (const NamedEffect& effect : result_.effects) result_.verdict.push_back(effect.suspect.effect);
@@ -445,11 +458,11 @@ class Diagnoser {
 
   // Gives up effects that make light worse which the fit has not seen, by more than twice the noise of the
   // simulations (what only one run tells of, a module near its flasher, changes it by noise alone): the last
-  // one first, which may have come by what an earlier one has left. `found`: anything was ever named.
-  void measure_gaps(bool found) {
+  // one first, which may have come by what an earlier one has left.
+  void measure_gaps() {
     constexpr double too_much = 2;
     RunSettings settings = options_;
-    if (found) settings.light.light *= light_of_gap, settings.light.least_hits *= light_of_gap;
+    if (found_) settings.light.light *= light_of_gap, settings.light.least_hits *= light_of_gap;
     result_.folds = std::min(options_.folds, flasher_count(data_));
     HeldOutGaps gaps(base_, data_, look_, settings, gap_stream, result_.folds, fits_);
     for (std::size_t r = 0; r < data_.runs.size(); ++r)
@@ -457,7 +470,7 @@ class Diagnoser {
     result_.gap_before = total(gaps.of_base());
     result_.gap_scatter = gaps.scatter_of_base();
     take_gaps(gaps.of_base());
-    if (!found) return;
+    if (!found_) return;
     while (!accepted_.empty()) {
       take_gaps(gaps.of(accepted_, stages_, 0.9, 0.95));
       if (is_past_asking(gaps)) break;
@@ -495,7 +508,11 @@ class Diagnoser {
     if (accepted_.effects().size() == 1 || result_.folds == 1) return result_.gap_before;
     AcceptedEffects fewer = accepted_;
     fewer.drop(fewer.effects().size() - 1);
-    return std::min(result_.gap_before, total(gaps.of(fewer, stages_, 0.95, 1)));
+    try {
+      return std::min(result_.gap_before, total(gaps.of(fewer, stages_, 0.95, 1)));
+    } catch (const InputError&) {
+      return result_.gap_before;  // no physical ice without the last one
+    }
   }
 
   static bool contains(const std::vector<std::string>& names, const std::string& name) {
@@ -510,6 +527,7 @@ class Diagnoser {
   std::optional<ModelJudge> judge_;
   EffectFits fits_;
   AcceptedEffects accepted_;
+  bool found_ = false;  // anything, even if it was given up again
   std::optional<double> neg_llh_so_far_;
   std::vector<Separation> separations_;  // of the last look's leading effects, each from each other
   Diagnosis result_;

@@ -29,7 +29,7 @@ struct DiagnosisOptions : RunSettings {
   double alpha = 0.01;   // probability of naming anything when nothing is missing
   double floor = 0.005;  // changes of light smaller than this, relative, are not told from differences
                          // between programs
-  int folds = 3;         // groups of runs, each held out once; 1 to the number of runs
+  int folds = 3;         // groups of runs, each held out once; 1 to the number of flashers
   int draws = 300;       // of light under the model, for each calibration
   int most_effects = 4;  // that are added, one after another
 };

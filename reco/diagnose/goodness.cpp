@@ -1,5 +1,6 @@
 #include "reco/diagnose/goodness.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <vector>
@@ -52,6 +53,7 @@ ExpectedFit right_fit(const std::vector<ModelJudge::Fit>& fits) {
 
 double probability_of(double neg_llh, const ExpectedFit& right) {
   const double variance = right.scatter * right.scatter;
+  neg_llh = std::max(0.0, neg_llh);  // less than a floor
   return chi_square_probability(2 * neg_llh * right.mean / variance, 2 * right.mean * right.mean / variance);
 }
 

@@ -20,9 +20,12 @@ double gap(const ModelJudge::Fit& fit) {
 
 // What only the runs that are held out tell of is not known: a prior, as wide as a large change, leaves it
 // where it changes nothing, and the place of a band where the fit to all runs has it. Layers have priors of
-// their own.
+// their own; of birefringence that the base lacks, about the one strength that was fitted before them.
 void expect_no_change(IceParameter& p, const Model& base) {
-  if (!p.family.empty()) return;
+  if (!p.family.empty()) {
+    if (base.ice->tables().configuration.birefringence) p.prior_centre = null_number(p, base);
+    return;
+  }
   p.prior = p.prior > 0 ? std::min(p.prior, p.scale) : p.scale;
   p.prior_centre = is_place_of_band(p) ? p.start : null_number(p, base);
 }

@@ -6,9 +6,6 @@ namespace floe {
 
 namespace {
 
-// Strings and modules with less light, in counts of the data, are not looked at one by one.
-constexpr double light_of_string = 300, light_of_module = 150;
-
 using Kind = SurveyColumn::Kind;
 
 // Light by string and by module over all runs, as counts of the data.

@@ -9,6 +9,9 @@
 
 namespace floe {
 
+// Strings and modules with less light, in counts of the data, are not looked at one by one.
+inline constexpr double light_of_string = 300, light_of_module = 150;
+
 // Efficiency, clock and place of every string, and efficiency of every module, that sees enough light in all
 // runs together.
 std::vector<SurveyColumn> place_columns(const std::vector<SurveyRun>& runs, const Detector& detector);

@@ -81,8 +81,8 @@ TellingRegion telling_region(const std::vector<Axis>& axes, const VectorXd& expe
 // That tells the most for its light.
 const SurveyRun& telling_run(const Survey& survey, const VectorXd& expected, const VectorXd& squares) {
   const auto worth = [&](const SurveyRun& run) {
-    return squares.segment(run.first, run.bins.size()).sum() /
-           expected.segment(run.first, run.bins.size()).sum();
+    const double light = expected.segment(run.first, run.bins.size()).sum();
+    return light > 0 ? squares.segment(run.first, run.bins.size()).sum() / light : 0;
   };
   return *std::max_element(survey.runs.begin(), survey.runs.end(),
                            [&](const SurveyRun& a, const SurveyRun& b) { return worth(a) < worth(b); });

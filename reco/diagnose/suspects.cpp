@@ -9,6 +9,7 @@
 
 #include "data/base/error.h"
 #include "propagation/effects/effect.h"
+#include "reco/diagnose/place_columns.h"
 
 namespace floe {
 
@@ -125,18 +126,17 @@ bool is_same_place(const Place& a, const Place& b) {
   return std::abs(depth->second - b.at("depth")) < (a.at("width") + b.at("width")) / 2;
 }
 
-DepthRange layers_of(const FlasherDepths& flashers, std::size_t runs) {
+DepthRange layers_of(const FlasherDepths& depths, int flashers) {
   constexpr double beyond = 50;  // the outermost flashers [m]
-  constexpr std::size_t most = 10;
-  return {flashers.shallowest - beyond, flashers.deepest + beyond, static_cast<int>(std::min(most, runs))};
+  constexpr int most = 10;
+  return {depths.shallowest - beyond, depths.deepest + beyond, std::min(most, flashers)};
 }
-DepthRange slopes_of(const FlasherDepths& flashers, std::size_t runs) {
-  constexpr std::size_t runs_a_slope = 2;
-  return layers_of(flashers, std::max<std::size_t>(1, runs / runs_a_slope));
+DepthRange slopes_of(const FlasherDepths& depths, int flashers) {
+  constexpr int flashers_a_slope = 2;
+  return layers_of(depths, std::max(1, flashers / flashers_a_slope));
 }
 
-SuspectPlan plan_suspects(const Model& model, const FlasherDepths& flashers, std::size_t runs,
-                          double oversize) {
+SuspectPlan plan_suspects(const Model& model, const FlasherDepths& depths, int flashers, double oversize) {
   SuspectPlan plan;
   for (const Effect* effect : effects()) {
     if (!is_plain(effect->name()) || is_hidden_by_width(effect->name(), oversize)) continue;
@@ -147,11 +147,11 @@ SuspectPlan plan_suspects(const Model& model, const FlasherDepths& flashers, std
   }
   // Ice of other ages follows the bed below in its own way: it has its slope at each depth (arXiv:1301.5361).
   plan.first_tilt = static_cast<int>(plan.parameters.size());
-  plan.tilt = slopes_of(flashers, runs);
+  plan.tilt = slopes_of(depths, flashers);
   for (IceParameter& p : tilt_parameters(plan.tilt)) plan.parameters.push_back(std::move(p));
   const auto& layers = model.ice->tables().layers;
-  DepthRange range{std::max(flashers.shallowest - beyond_flashers, layers.front().depth),
-                   std::min(flashers.deepest + beyond_flashers, layers.back().depth), 1};
+  DepthRange range{std::max(depths.shallowest - beyond_flashers, layers.front().depth),
+                   std::min(depths.deepest + beyond_flashers, layers.back().depth), 1};
   range.groups = std::max(1, static_cast<int>((range.bottom - range.top) / thickness));
   plan.bands = {range.top, (range.bottom - range.top) / range.groups, range.groups};
   plan.first_layer = static_cast<int>(plan.parameters.size());
@@ -160,12 +160,28 @@ SuspectPlan plan_suspects(const Model& model, const FlasherDepths& flashers, std
   return plan;
 }
 
+namespace {
+
+// Of effects at a place, that no place was tried.
+std::optional<std::string> why_nowhere(const std::string& effect) {
+  if (effect.ends_with("-layer"))
+    return fmt::format("no band fits in the ice's table within {} m of the flashers", beyond_flashers);
+  if (effect == "module-efficiency")
+    return fmt::format("no module sees {} counts in these runs together", light_of_module);
+  if (effect == "string-efficiency" || effect == "geometry-offset" || effect == "time-offset")
+    return fmt::format("no string sees {} counts in these runs together", light_of_string);
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::string why_no_suspect(const std::string& effect, const Model& model, double oversize) {
   if (is_hidden_by_width(effect, oversize))
     return "modules that are simulated wider do not see it; --oversize 1 does";
   if (effect == "grains") return "the size of grains is the strength of birefringence by another name";
   if (effect == "overall-efficiency" || effect == "flasher-brightness")
     return "the brightness of each run takes it up";
+  if (auto why = why_nowhere(effect)) return *why;
   if (is_plain(effect))
     for (const EffectParameter& parameter : find_effect(effect).parameters(parts_of(model)))
       if (auto why = why_idle(model, effect_parameter(effect + "." + parameter.name, model))) return *why;

@@ -43,16 +43,16 @@ struct SuspectPlan {
   BandGrid bands;
   int first_tilt = 0, first_layer = 0;  // indices of the first slope, of the first group's absorption
 };
-// `runs`: so many flashers tell layers apart, in effects that differ from one to the next. `oversize`: of the
+// `flashers`: so many tell layers apart, in effects that differ from one to the next. `oversize`: of the
 // simulations; modules that are widened do not see hole ice.
-SuspectPlan plan_suspects(const Model& model, const FlasherDepths& flashers, std::size_t runs,
-                          double oversize);
+SuspectPlan plan_suspects(const Model& model, const FlasherDepths& depths, int flashers, double oversize);
 
 // Layers that flashers tell apart.
-DepthRange layers_of(const FlasherDepths& flashers, std::size_t runs);
+DepthRange layers_of(const FlasherDepths& depths, int flashers);
 // Likewise of the layers' slopes: half as many. A slope acts by its distance from the middle of the detector,
-// so that one that a single run tells is not known well enough to say what that run sees when it is held out.
-DepthRange slopes_of(const FlasherDepths& flashers, std::size_t runs);
+// so that one that a single flasher tells is not known well enough to say what is seen of it when it is held
+// out.
+DepthRange slopes_of(const FlasherDepths& depths, int flashers);
 
 std::vector<Suspect> suspects_of(const Survey& survey, const SuspectPlan& plan);
 

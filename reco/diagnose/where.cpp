@@ -105,8 +105,9 @@ Region region_of(const AxisCells& axis, const Extreme& at, const Residuals& cell
 }
 
 // By how much more the data are off in the second half of the light along an axis than in the first, in
-// standard deviations; positive where the gap grows. `bins`: of the region, nothing elsewhere.
-double growth(const Axis& axis, const Residuals& bins) {
+// standard deviations; positive where the gap grows; nothing where one half has no light. `bins`: of the
+// region, nothing elsewhere.
+std::optional<double> growth(const Axis& axis, const Residuals& bins) {
   const Residuals cells = along(axis, bins);
   const double middle = cells.expected.sum() / 2;
   Eigen::Index split = 0;
@@ -118,7 +119,7 @@ double growth(const Axis& axis, const Residuals& bins) {
       return half == 0 ? v.head(split).sum() : v.tail(v.size() - split).sum();
     };
     const double light = of_half(cells.expected);
-    if (!(light > 0)) return 0;
+    if (!(light > 0)) return std::nullopt;
     relative[half] = of_half(cells.off) / light;
     variance[half] = of_half(cells.variance) / (light * light);
   }
@@ -143,16 +144,12 @@ std::string sentence_of(const Region& region, const Axis& axis, const Extreme& a
   constexpr double sure = 3;  // standard deviations
   const Residuals here = inside(axis, at, all);
   std::string text = region.sentence.substr(0, region.sentence.size() - 1);
-  if (region.axis != "distance") {
-    const double grows = growth(distance, here);
-    text += grows > sure ? ", growing with distance" : grows < -sure ? ", fading with distance" : "";
-  }
-  if (region.axis != "time") {
-    const double grows = growth(time, here);
-    text += grows > sure    ? ", most in late light"
-            : grows < -sure ? ", most in early light"
-                            : ", timing unchanged";
-  }
+  if (const auto grows = growth(distance, here); grows && region.axis != "distance")
+    text += *grows > sure ? ", growing with distance" : *grows < -sure ? ", fading with distance" : "";
+  if (const auto grows = growth(time, here); grows && region.axis != "time")
+    text += *grows > sure    ? ", most in late light"
+            : *grows < -sure ? ", most in early light"
+                             : ", timing unchanged";
   return text + ".";
 }
 

@@ -170,16 +170,30 @@ IceParameter effect_parameter(std::string_view name, const Model& base) {
   return parameter;
 }
 
+namespace {
+
+bool sets(const std::vector<EffectSetting>& settings, const EffectSetting& one) {
+  return std::ranges::any_of(settings, [&](const EffectSetting& setting) {
+    return setting.effect == one.effect && setting.parameter == one.parameter;
+  });
+}
+
+}  // namespace
+
 Model with_parameters(const Model& base, const std::vector<IceParameter>& parameters,
                       const std::vector<double>& numbers) {
   ModelParts parts = parts_of(base);
   std::vector<EffectSetting> settings;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     if (parameters[i].apply) parameters[i].apply(numbers[i], parts);
-    if (parameters[i].effect) {
-      settings.push_back(*parameters[i].effect);
-      settings.back().value = numbers[i];
+    if (!parameters[i].effect) continue;
+    // A parameter that comes again is that of another place, a second band.
+    if (sets(settings, *parameters[i].effect)) {
+      apply_effects(settings, parts);
+      settings.clear();
     }
+    settings.push_back(*parameters[i].effect);
+    settings.back().value = numbers[i];
   }
   apply_effects(settings, parts);
   return freeze(std::move(parts));

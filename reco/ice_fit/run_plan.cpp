@@ -49,16 +49,18 @@ FirstLook look_first(const Model& model, const RequestOfRun& request, FlasherDat
   return look;
 }
 
+void leave_out_run(std::size_t run, const std::string& why, FlasherData& data, FirstLook& look) {
+  data.left_out.push_back(fmt::format("run {}: {}", data.runs[run].name, why));
+  const auto at = static_cast<std::ptrdiff_t>(run);
+  data.runs.erase(data.runs.begin() + at);
+  look.hits_per_photon.erase(look.hits_per_photon.begin() + at);
+  look.brightness.erase(look.brightness.begin() + at);
+}
+
 void leave_out_dark_runs(FlasherData& data, FirstLook& look) {
-  for (std::size_t r = data.runs.size(); r-- > 0;) {
-    if (data.runs[r].charge > 0) continue;
-    data.left_out.push_back(
-        fmt::format("run {}: no receiver is left that could be compared", data.runs[r].name));
-    const auto at = static_cast<std::ptrdiff_t>(r);
-    data.runs.erase(data.runs.begin() + at);
-    look.hits_per_photon.erase(look.hits_per_photon.begin() + at);
-    look.brightness.erase(look.brightness.begin() + at);
-  }
+  for (std::size_t r = data.runs.size(); r-- > 0;)
+    if (!(data.runs[r].charge > 0))
+      leave_out_run(r, "no receiver is left that could be compared", data, look);
   if (data.runs.empty())
     throw NoResult("not enough light: no flasher run has a receiver that could be compared");
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "propagation/model.h"
@@ -24,6 +25,9 @@ struct FirstLook {
 
 // Simulates a little of every run, and leaves out receivers that cannot be right (leave_out_bad_receivers).
 FirstLook look_first(const Model& model, const RequestOfRun& request, FlasherData& data);
+
+// Takes a run out of both, with a sentence.
+void leave_out_run(std::size_t run, const std::string& why, FlasherData& data, FirstLook& look);
 
 // Leaves out runs of which no receiver is left, with a sentence. Throws NoResult when no run is.
 void leave_out_dark_runs(FlasherData& data, FirstLook& look);

@@ -16,9 +16,10 @@ class Diagnose : public ::testing::Test {
   Outcome floe(const std::string& arguments) const { return run_floe(folder_.path(), arguments); }
   std::string text_of(const std::string& file) const { return bytes_of(folder_.path() / file); }
   // Two small runs in the built-in ice, with the options of floe simulate.
-  void simulate(const std::string& options) const {
-    write_bytes(folder_.path() / "runs.toml",
-                "[defaults]\nphotons = 4e8\n[[run]]\nmodule = [36, 20]\n[[run]]\nmodule = [45, 40]\n");
+  void simulate(const std::string& options, const std::string& more_runs = "") const {
+    write_bytes(
+        folder_.path() / "runs.toml",
+        "[defaults]\nphotons = 4e8\n[[run]]\nmodule = [36, 20]\n[[run]]\nmodule = [45, 40]\n" + more_runs);
     const Outcome outcome =
         floe("simulate --flashers runs.toml --oversize 16 --seed 5 --quiet -o runs.h5 " + options);
     ASSERT_EQ(outcome.code, 0) << outcome.err;
@@ -64,8 +65,10 @@ TEST_F(Diagnose, NamesWhatWasHidden) {
 }
 
 TEST_F(Diagnose, IsSilentWhereNothingIsMissing) {
-  simulate("");
+  simulate("", "[[run]]\nmodule = [27, 30]\nphotons = 1e6\n");
   const Json found = diagnosis();
+  EXPECT_EQ(found["left_out"], Json::array({"run 27,30: no receiver sees enough light to be compared"}));
+  EXPECT_EQ(found["gaps"].size(), 2u);
   EXPECT_TRUE(found["verdict"].empty()) << found["verdict"].dump() << found["steps"][0]["scores"].dump(1);
   EXPECT_TRUE(found["effects"].empty());
   EXPECT_GT(found["p_value"].get<double>(), 0.01);
@@ -98,6 +101,7 @@ TEST_F(Diagnose, IsPutToTheTestByBlindTrials) {
     ++hidden, right += trial["right"].get<bool>();
   }
   EXPECT_GE(hidden, 4);
+  EXPECT_TRUE(found["not_tried"].contains("noise")) << found["not_tried"].dump();
   const Json sealed = Json::parse(text_of("sealed.json"));
   ASSERT_EQ(sealed["trials"].size(), found["trials"].size());
   for (std::size_t i = 0; i < sealed["trials"].size(); ++i)

@@ -7,6 +7,7 @@
 #include "reco/diagnose/goodness.h"
 #include "reco/diagnose/score_test.h"
 #include "reco/diagnose/suspects.h"
+#include "reco/ice_fit/held_out_runs.h"
 #include "response/detector_response.h"
 
 namespace floe::test {
@@ -64,7 +65,8 @@ class RecordedFlashes : public ::testing::Test {
 
 TEST_F(RecordedFlashes, BirefringenceIsNamedWhereItIsMissing) {
   const Model base = model_without({"birefringence"});
-  const SuspectPlan plan = plan_suspects(base, flasher_depths(data_, *base.detector), data_.runs.size(), 16);
+  const SuspectPlan plan =
+      plan_suspects(base, flasher_depths(data_, *base.detector), flasher_count(data_), 16);
   const Survey survey = survey_of(base, {.parameters = plan.parameters, .places = false});
   const std::vector<Suspect> suspects = suspects_of(survey, plan);
   const ScoreTest test =

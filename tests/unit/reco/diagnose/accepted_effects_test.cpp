@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "reco/diagnose/score_test.h"
+
 namespace floe::test {
 namespace {
 
@@ -115,6 +117,15 @@ TEST_F(Accepted, AreRefinedByLayersWhateverCameLater) {
   EXPECT_EQ(accepted_.effects()[1].values, (std::vector<double>{600}));
   accepted_.drop(0);
   EXPECT_EQ(accepted_.parameter_count(), 1u);
+}
+
+// Layers that differ both ways about the base's strength are no base of that strength.
+TEST_F(Accepted, AreAsSignificantAsTheirLayersTogether) {
+  add("birefringence", "strength", {1}, {0.05});
+  const auto layers = accepted_.parameters_by_layers(0, LayerFamily::birefringence, {1700, 2000, 3});
+  accepted_.take_layers(0, fit(layers, {-0.4, 0.4, 0}, {0.1, 0.1, 0.1}));
+  const double ln_p = std::log(std::erfc(4) + 8 / std::sqrt(M_PI) * std::exp(-16));  // chi-square 32 of 3
+  EXPECT_NEAR(accepted_.effects()[0].significance, sigmas_of(ln_p), 1e-6);
 }
 
 TEST_F(Accepted, GoToFloesOwnFileOnlyWhereNoOtherHoldsThem) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reco/diagnose/goodness.h"
 #include "reco/diagnose/rivals.h"
 #include "reco/diagnose/score_test.h"
 
@@ -63,6 +64,14 @@ TEST(Rivals, AreAlternativesWhereTheLeaderMayHaveLeftWhatTheyWould) {
   EXPECT_TRUE(is_alternative(score(0.92, -8, 16), first, 1e4, 1));    // inseparable until fits decide
 }
 
+// Also of one that is better than any that differs by the floor only.
+TEST(Probabilities, OfAnExpectedFitAreLarge) {
+  const ExpectedFit right{100, 10};
+  EXPECT_NEAR(probability_of(100, right), 0.5, 0.03);
+  EXPECT_LT(probability_of(150, right), 1e-4);
+  EXPECT_EQ(probability_of(-20, right), 1);
+}
+
 // Of exponential gains every probability is known.
 TEST(Probabilities, BeyondTheDrawsFallExponentially) {
   std::vector<double> drawn;
@@ -98,13 +107,37 @@ TEST_F(Suspects, AreTheEffectsThatTheDataCanTell) {
   EXPECT_FALSE(planned("hole-ice.scattering"));
 }
 
+// As rivals are, which may be two places of one effect.
+TEST_F(Suspects, OfOneKindHaveTheirOwnBands) {
+  std::vector<IceParameter> parameters;
+  std::vector<double> numbers;
+  for (const double depth : {1750.0, 1850.0})
+    for (const auto& [name, number] : {std::pair{"depth", depth}, {"width", 40.0}, {"factor", 2.0}}) {
+      parameters.push_back(effect_parameter(std::string("absorption-layer.") + name, model_));
+      numbers.push_back(number);
+    }
+  const Model changed = with_parameters(model_, parameters, numbers);
+  const IceTables &before = model_.ice->tables(), &after = changed.ice->tables();
+  for (std::size_t i = 0; i < before.layers.size(); ++i) {
+    const double depth = before.layers[i].depth;
+    const bool inside = std::abs(depth - 1750) < 15 || std::abs(depth - 1850) < 15;
+    const bool outside = std::abs(depth - 1750) > 25 && std::abs(depth - 1850) > 25;
+    const double factor = after.layers[i].dust_absorption / before.layers[i].dust_absorption;
+    if (inside || outside) {
+      EXPECT_NEAR(factor, inside ? 2 : 1, 1e-9) << depth;
+    }
+  }
+}
+
 TEST_F(Suspects, SayWhyOthersAreNone) {
   const auto why = [&](const char* effect) { return why_no_suspect(effect, model_, 16); };
   EXPECT_NE(why("hole-ice").find("--oversize 1"), std::string::npos);
   EXPECT_NE(why("grains").find("birefringence by another name"), std::string::npos);
   EXPECT_NE(why("flasher-brightness").find("brightness of each run"), std::string::npos);
   EXPECT_NE(why("cable-shadow").find("where the cables are is not known"), std::string::npos);
-  EXPECT_NE(why("module-efficiency").find("no light of these runs"), std::string::npos);
+  EXPECT_NE(why("module-efficiency").find("no module sees 150 counts"), std::string::npos);
+  EXPECT_NE(why("time-offset").find("no string sees 300 counts"), std::string::npos);
+  EXPECT_NE(why("scattering-layer").find("within 150 m of the flashers"), std::string::npos);
 }
 
 TEST_F(Suspects, HoleIceIsNoneWhereModulesAreWidened) {
