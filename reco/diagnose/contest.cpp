@@ -41,7 +41,7 @@ std::vector<IceParameter> parameters_of(const Candidate& candidate, const Model&
     const double alone = candidate.fit.numbers[first + i];
     const bool is_place = is_place_of_band(p);
     p.start = is_place ? alone : (null_number(p, base) + alone) / 2;
-    if (is_place) p.prior = held * p.scale;
+    if (is_place) p.prior = held * p.scale, p.prior_centre = alone;
   }
   return parameters;
 }

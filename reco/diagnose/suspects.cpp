@@ -234,6 +234,9 @@ std::vector<IceParameter> parameters_from(const Suspect& suspect, const Eigen::V
     parameters[1].low = base.ice->layer_step();
     parameters[1].start = std::max(parameters[1].low, suspect.place.at("width"));
     parameters[2].start = std::clamp(std::exp(amplitudes(0)), 0.4, 2.5);
+    // The score has looked so far about its place: an edge beyond the light is no further away.
+    for (IceParameter& p : parameters)
+      if (is_place_of_band(p)) p.prior = widest_band / 2, p.prior_centre = p.start;
   } else if (suspect.place.count("string")) {
     Eigen::Index i = 0;
     for (const Changing& change : changing(suspect.effect)) {

@@ -263,6 +263,11 @@ TEST_F(Suspects, BecomeParametersOfAFit) {
   EXPECT_EQ(of_band[1].start, 40);
   EXPECT_EQ(of_band[1].low, model_.ice->layer_step());  // thinner is the same as a smaller factor
   EXPECT_NEAR(of_band[2].start, 1.5, 1e-12);
+  for (const int place : {0, 1}) {
+    EXPECT_EQ(of_band[place].prior, 80);
+    EXPECT_EQ(of_band[place].prior_centre, of_band[place].start);
+  }
+  EXPECT_EQ(of_band[2].prior, 0);
   EXPECT_EQ(text_of(band), "absorption-layer at 1760-1800 m");
 
   Suspect tilt{"tilt", {}, {{{0, 1.0}}, {{1, 1.0}}}};
