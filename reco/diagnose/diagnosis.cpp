@@ -457,8 +457,8 @@ class Diagnoser {
   }
 
   // Gives up effects that make light worse which the fit has not seen, by more than twice the noise of the
-  // simulations (what only one run tells of, a module near its flasher, changes it by noise alone): the last
-  // one first, which may have come by what an earlier one has left.
+  // simulations and by more than follows from what the others do not tell (of a string that only one flasher
+  // lights they tell nothing): the last one first, which may have come by what an earlier one has left.
   void measure_gaps() {
     constexpr double too_much = 2;
     RunSettings settings = options_;
@@ -466,29 +466,36 @@ class Diagnoser {
     result_.folds = std::min(options_.folds, flasher_count(data_));
     HeldOutGaps gaps(base_, data_, look_, settings, gap_stream, result_.folds, fits_);
     for (std::size_t r = 0; r < data_.runs.size(); ++r)
-      result_.gaps.push_back({data_.runs[r].name, gaps.of_base()[r], 0});
-    result_.gap_before = total(gaps.of_base());
+      result_.gaps.push_back({data_.runs[r].name, gaps.of_base().of_runs[r], 0});
+    result_.gap_before = gaps.of_base().total();
     result_.gap_scatter = gaps.scatter_of_base();
     take_gaps(gaps.of_base());
     if (!found_) return;
     while (!accepted_.empty()) {
-      take_gaps(gaps.of(accepted_, stages_, 0.9, 0.95));
+      const Gaps with = gaps.of(accepted_, stages_, 0.9, 0.95);
+      take_gaps(with);
       if (is_past_asking(gaps)) break;
-      const double without = gap_without_last(gaps);
-      if (result_.gap_after <= without + too_much * gaps.noise_of_differences()) break;
+      const Gaps without = without_last(gaps);
+      if (with.known() <= without.known() + too_much * gaps.noise_of_differences()) break;
       give_up(accepted_.effects().size() - 1,
-              fmt::format("runs that were held out fit worse with it (a gap of {:.1f}) than without ({:.1f})",
-                          result_.gap_after, without));
+              fmt::format("runs that were held out fit worse with it (a gap of {:.1f}, {:.1f} of which the "
+                          "others cannot know) than without ({:.1f}, {:.1f})",
+                          with.total(), with.unknown, without.total(), without.unknown));
       take_gaps(gaps.of_base());
       refit();
     }
     std::ranges::copy(gaps.remarks(), std::back_inserter(result_.remarks));
+    if (result_.gap_unknown > gaps.noise_of_differences())
+      result_.remarks.push_back(
+          fmt::format("What runs do not tell of others makes the gap after larger by {:.0f} on average",
+                      result_.gap_unknown));
     result_.p_of_rest = accepted_.empty() ? gaps.p_of_base(neg_llh_of_floor())
                                           : gaps.p_of(accepted_.model(), neg_llh_of_floor());
   }
   void take_gaps(const Gaps& gaps) {
-    for (std::size_t r = 0; r < gaps.size(); ++r) result_.gaps[r].after = gaps[r];
-    result_.gap_after = total(gaps);
+    for (std::size_t r = 0; r < gaps.of_runs.size(); ++r) result_.gaps[r].after = gaps.of_runs[r];
+    result_.gap_after = gaps.total();
+    result_.gap_unknown = gaps.unknown;
   }
 
   // With several effects the question costs a fit and a measurement. The answer is known where the last one
@@ -504,14 +511,15 @@ class Diagnoser {
   }
 
   // Of what was found before the last effect, or of the base where that is better.
-  double gap_without_last(HeldOutGaps& gaps) {
-    if (accepted_.effects().size() == 1 || result_.folds == 1) return result_.gap_before;
+  Gaps without_last(HeldOutGaps& gaps) {
+    if (accepted_.effects().size() == 1 || result_.folds == 1) return gaps.of_base();
     AcceptedEffects fewer = accepted_;
     fewer.drop(fewer.effects().size() - 1);
     try {
-      return std::min(result_.gap_before, total(gaps.of(fewer, stages_, 0.95, 1)));
+      return std::min(gaps.of_base(), gaps.of(fewer, stages_, 0.95, 1),
+                      [](const Gaps& a, const Gaps& b) { return a.known() < b.known(); });
     } catch (const InputError&) {
-      return result_.gap_before;  // no physical ice without the last one
+      return gaps.of_base();  // no physical ice without the last one
     }
   }
 

@@ -52,6 +52,7 @@ struct Diagnosis {
   std::vector<RunGap> gaps;          // held out
   double gap_before = 0, gap_after = 0;
   double gap_scatter = 0;  // deviation of a gap, had the model been true
+  double gap_unknown = 0;  // part of the gap after that is due to what runs do not tell of others (Gaps)
   // Groups that runs were held out in. 1: none were, and gaps after are of a model that was fitted to these
   // runs.
   int folds = 1;

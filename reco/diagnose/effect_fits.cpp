@@ -39,8 +39,8 @@ IceFit EffectFits::fit_layers(const std::vector<IceParameter>& parameters) const
 }
 
 // The first round and slopes from pairs have enough light.
-std::vector<std::optional<std::vector<double>>> EffectFits::fit_without(
-    const std::vector<std::vector<char>>& left_out, const std::vector<IceParameter>& parameters) const {
+std::vector<FitWithout> EffectFits::fit_without(const std::vector<std::vector<char>>& left_out,
+                                                const std::vector<IceParameter>& parameters) const {
   IceFitOptions asked = options(1);
   asked.light.light *= light_of_folds, asked.light.least_hits *= light_of_folds;
   asked.pair_light /= light_of_folds, asked.first_light /= light_of_folds;

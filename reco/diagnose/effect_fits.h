@@ -26,10 +26,10 @@ class EffectFits {
   IceFit fit(const std::vector<IceParameter>& parameters, const Settled& settled = {}) const;
   // Of layers, which follow one another slowly.
   IceFit fit_layers(const std::vector<IceParameter>& parameters) const;
-  // Numbers of fits that each leave runs out (fit_ice_without); with more light, since what the others tell
-  // of these is extrapolated, and the noise of simulations with it.
-  std::vector<std::optional<std::vector<double>>> fit_without(
-      const std::vector<std::vector<char>>& left_out, const std::vector<IceParameter>& parameters) const;
+  // Fits that each leave runs out (fit_ice_without); with more light, since what the others tell of these is
+  // extrapolated, and the noise of simulations with it.
+  std::vector<FitWithout> fit_without(const std::vector<std::vector<char>>& left_out,
+                                      const std::vector<IceParameter>& parameters) const;
   // Of rivals: where they are alike, noise of slopes and simulations decides soonest.
   IceFit fit_rivals(const std::vector<IceParameter>& parameters, const Settled& settled) const;
 

@@ -32,8 +32,8 @@ void expect_no_change(IceParameter& p, const Model& base) {
 
 }  // namespace
 
-double total(const Gaps& gaps) {
-  return std::accumulate(gaps.begin(), gaps.end(), 0.0);
+double Gaps::total() const {
+  return std::accumulate(of_runs.begin(), of_runs.end(), 0.0);
 }
 
 HeldOutGaps::HeldOutGaps(const Model& base, const FlasherData& data, const FirstLook& look,
@@ -45,38 +45,41 @@ HeldOutGaps::HeldOutGaps(const Model& base, const FlasherData& data, const First
       held_out_(data, *base.detector, folds),
       fits_of_base_(judge_.judge_all(base)),
       right_of_base_(right_fit(fits_of_base_)) {
-  for (const ModelJudge::Fit& fit : fits_of_base_) of_base_.push_back(gap(fit));
+  for (const ModelJudge::Fit& fit : fits_of_base_) of_base_.of_runs.push_back(gap(fit));
 }
 
 Gaps HeldOutGaps::of(const AcceptedEffects& effects, Stages& stages, double from, double to) {
   stages.begin(from, to, "holding runs out");
   const int folds = held_out_.folds();
-  const std::vector<Model> models =
-      folds == 1 ? std::vector<Model>{effects.model()} : fitted_without(effects);
-  Gaps gaps(data_.runs.size());
-  for (int fold = 0; fold < folds; ++fold)
-    for (std::size_t r = 0; r < gaps.size(); ++r)
-      if (held_out_.holds(r, fold)) gaps[r] = gap(judge_.judge(models[static_cast<std::size_t>(fold)], r));
+  const std::vector<GroupModel> groups =
+      folds == 1 ? std::vector<GroupModel>{{effects.model()}} : fitted_without(effects);
+  Gaps gaps{std::vector<double>(data_.runs.size())};
+  for (int fold = 0; fold < folds; ++fold) {
+    const GroupModel& group = groups[static_cast<std::size_t>(fold)];
+    gaps.unknown += group.unknown;
+    for (std::size_t r = 0; r < gaps.of_runs.size(); ++r)
+      if (held_out_.holds(r, fold)) gaps.of_runs[r] = gap(judge_.judge(group.model, r));
+  }
   return gaps;
 }
 
 // The base where the other runs lead to no ice that can be: they tell nothing of this then.
-std::vector<Model> HeldOutGaps::fitted_without(const AcceptedEffects& effects) {
+std::vector<HeldOutGaps::GroupModel> HeldOutGaps::fitted_without(const AcceptedEffects& effects) {
   std::vector<IceParameter> parameters = effects.parameters();
   for (IceParameter& p : parameters) expect_no_change(p, base_);
-  std::vector<Model> models;
-  for (const auto& numbers : fits_.fit_without(held_out_.left_out(), parameters)) {
-    if (numbers) {
-      models.push_back(with_parameters(base_, parameters, *numbers));
+  std::vector<GroupModel> groups;
+  for (const FitWithout& fit : fits_.fit_without(held_out_.left_out(), parameters)) {
+    if (fit.numbers) {
+      groups.push_back({with_parameters(base_, parameters, *fit.numbers), fit.unknown});
       continue;
     }
-    models.push_back(base_);
+    groups.push_back({base_});
     const std::string remark = fmt::format(
         "Without the runs of group {} of {} the others fit to no physical ice: the base judges these runs",
-        models.size(), held_out_.folds());
+        groups.size(), held_out_.folds());
     if (std::ranges::find(remarks_, remark) == remarks_.end()) remarks_.push_back(remark);
   }
-  return models;
+  return groups;
 }
 
 double HeldOutGaps::p_of_base(double allowed) const {

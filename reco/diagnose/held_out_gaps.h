@@ -21,9 +21,16 @@ struct RunGap {
   double before = 0, after = 0;  // deviance above what it would be on average if the model were true
 };
 
-// One of each run.
-using Gaps = std::vector<double>;
-double total(const Gaps& gaps);
+struct Gaps {
+  std::vector<double> of_runs;
+  // Part of their sum that is due, on average, to what the runs that a model was fitted to do not tell of it
+  // (FitWithout).
+  double unknown = 0;
+
+  double total() const;
+  // Of models that other runs tell of, or do not, alike.
+  double known() const { return total() - unknown; }
+};
 
 class HeldOutGaps {
  public:
@@ -51,7 +58,11 @@ class HeldOutGaps {
 
  private:
   // By group, a model that was fitted to the runs of the others.
-  std::vector<Model> fitted_without(const AcceptedEffects& effects);
+  struct GroupModel {
+    Model model;
+    double unknown = 0;
+  };
+  std::vector<GroupModel> fitted_without(const AcceptedEffects& effects);
 
   const Model& base_;
   const FlasherData& data_;

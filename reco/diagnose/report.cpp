@@ -309,8 +309,11 @@ std::string gap_text(const Diagnosis& diagnosis) {
       "{:.1f} "
       "for all of them; after: {}.</p>\n",
       diagnosis.gap_scatter,
-      diagnosis.folds > 1 ? "of models that were fitted to other runs"
-                          : "of the model that was fitted to these runs, as none was held out");
+      diagnosis.folds > 1
+          ? fmt::format("of models that were fitted to other runs. What these do not tell makes it larger by "
+                        "{:.1f} on average",
+                        diagnosis.gap_unknown)
+          : "of the model that was fitted to these runs, as none was held out");
 }
 
 std::string gap_table(const Diagnosis& diagnosis) {

@@ -68,8 +68,7 @@ class Fit {
     return std::move(fit_);
   }
 
-  std::vector<std::optional<std::vector<double>>> run_without(
-      const std::vector<std::vector<char>>& left_out) {
+  std::vector<FitWithout> run_without(const std::vector<std::vector<char>>& left_out) {
     look_first();
     round_ = 1;
     one_round();
@@ -80,14 +79,13 @@ class Fit {
       report(r, "walking in the light of");
       scores_.add(point, r, count(), {}, of_runs[r]);
     }
-    std::vector<std::optional<std::vector<double>>> numbers;
+    std::vector<FitWithout> fits;
     for (const std::vector<char>& runs : left_out) {
-      ScoreSystem system = empty_system();
-      for (std::size_t r = 0; r < of_runs.size(); ++r)
-        if (!runs[r]) system += of_runs[r];
-      numbers.push_back(solved(std::move(system)));
+      ScoreSystem kept = empty_system(), others = empty_system();
+      for (std::size_t r = 0; r < of_runs.size(); ++r) (runs[r] ? others : kept) += of_runs[r];
+      fits.push_back(fit_without(std::move(kept), std::move(others)));
     }
-    return numbers;
+    return fits;
   }
 
  private:
@@ -111,17 +109,22 @@ class Fit {
     return ScoreSystem(static_cast<int>(count() + 2 * scores_.count()) + efficiencies);
   }
 
-  // Where one step leads. What none of the runs tells goes all the way to its prior.
-  std::optional<std::vector<double>> solved(ScoreSystem system) const {
+  // Where one step leads. What none of the runs that are kept tells goes all the way to its prior.
+  FitWithout fit_without(ScoreSystem kept, ScoreSystem others) const {
     constexpr double any = std::numeric_limits<double>::infinity();
-    calibrate(system);
+    calibrate(kept), calibrate(others);
     const IceSolution solution =
-        solve_ice(system, fit_.parameters, fit_.numbers, {options_.smoothness, options_.amplitude}, any);
+        solve_ice(kept, fit_.parameters, fit_.numbers, {options_.smoothness, options_.amplitude}, any);
+    FitWithout fit;
+    fit.unknown = information_about_ice(others, static_cast<Eigen::Index>(count()))
+                      .cwiseProduct(solution.covariance)
+                      .sum();
     try {
-      return stepped(solution.step);
+      fit.numbers = stepped(solution.step);
     } catch (const InputError&) {
-      return std::nullopt;
+      // The step leads to no physical ice.
     }
+    return fit;
   }
 
   void one_round() {
@@ -259,9 +262,10 @@ IceFit fit_ice(const Model& base, const FlasherData& data, const std::vector<Ice
   return fit;
 }
 
-std::vector<std::optional<std::vector<double>>> fit_ice_without(
-    const Model& base, const FlasherData& data, const std::vector<IceParameter>& parameters,
-    const std::vector<std::vector<char>>& left_out, IceFitOptions options, const Progress& progress) {
+std::vector<FitWithout> fit_ice_without(const Model& base, const FlasherData& data,
+                                        const std::vector<IceParameter>& parameters,
+                                        const std::vector<std::vector<char>>& left_out, IceFitOptions options,
+                                        const Progress& progress) {
   check(options);
   if (options.efficiency_width > 0)
     throw UsageError("fits that leave runs out know the receivers' efficiencies");

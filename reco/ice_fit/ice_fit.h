@@ -79,12 +79,21 @@ struct IceFit {
 IceFit fit_ice(const Model& base, const FlasherData& data, const std::vector<IceParameter>& parameters,
                const IceFitOptions& options, const Progress& progress = {});
 
-// The numbers of fits that each leave some of the runs out, all from one simulation of every run: after a
-// round of the fit to all of them, one Gauss-Newton step of the others' equations alone, of any length. To be
-// begun where a fit to all runs has ended. `left_out`: by fit, by run. None where the step leads to no
-// physical ice. Throws as fit_ice does, InputError where the first round's way leads to no physical ice.
-std::vector<std::optional<std::vector<double>>> fit_ice_without(
-    const Model& base, const FlasherData& data, const std::vector<IceParameter>& parameters,
-    const std::vector<std::vector<char>>& left_out, IceFitOptions options, const Progress& progress = {});
+// A fit to some of the runs.
+struct FitWithout {
+  std::optional<std::vector<double>> numbers;  // none where its step leads to no physical ice
+  // By how much the deviance (-2 ln L) of the runs that were left out is larger at these numbers than at the
+  // true ones, on average: tr(F C), with F what those runs tell and C what the others leave uncertain.
+  double unknown = 0;
+};
+
+// Fits that each leave some of the runs out, all from one simulation of every run: after a round of the fit
+// to all of them, one Gauss-Newton step of the others' equations alone, of any length. To be begun where a
+// fit to all runs has ended. `left_out`: by fit, by run. Throws as fit_ice does, InputError where the first
+// round's way leads to no physical ice.
+std::vector<FitWithout> fit_ice_without(const Model& base, const FlasherData& data,
+                                        const std::vector<IceParameter>& parameters,
+                                        const std::vector<std::vector<char>>& left_out, IceFitOptions options,
+                                        const Progress& progress = {});
 
 }  // namespace floe

@@ -188,4 +188,14 @@ IceSolution solve_ice(const ScoreSystem& system, const std::vector<IceParameter>
   return solution;
 }
 
+Eigen::MatrixXd information_about_ice(const ScoreSystem& system, Eigen::Index count) {
+  Eigen::MatrixXd light = without_negative(system.information);
+  light.diagonal().array() += hardly_information;
+  const Eigen::Index others = light.rows() - count;
+  const Eigen::MatrixXd ice = light.topLeftCorner(count, count);
+  if (others == 0) return ice;
+  const Eigen::MatrixXd shared = light.topRightCorner(count, others);
+  return ice - shared * light.bottomRightCorner(others, others).ldlt().solve(shared.transpose());
+}
+
 }  // namespace floe

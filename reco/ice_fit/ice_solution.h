@@ -25,4 +25,7 @@ struct IceSolution {
 IceSolution solve_ice(const ScoreSystem& system, const std::vector<IceParameter>& parameters,
                       const std::vector<double>& numbers, const IcePriors& priors, double longest);
 
+// What the light tells of the first `count` numbers, parameters of the ice, whatever the others are.
+Eigen::MatrixXd information_about_ice(const ScoreSystem& system, Eigen::Index count);
+
 }  // namespace floe

@@ -188,6 +188,19 @@ TEST(IceSolution, ErrorsAreInfiniteWithoutLight) {
   EXPECT_LT(std::sqrt(solution.covariance(1, 1)), 1);  // the priors know it
 }
 
+// Whatever the other numbers are; runs that are not there tell nothing of their own.
+TEST(IceSolution, InformationAboutTheIceIsThatOfItsErrors) {
+  std::mt19937 random(4);
+  std::normal_distribution<double> normal;
+  Eigen::MatrixXd root(6, 6);
+  for (Eigen::Index i = 0; i < 36; ++i) root(i / 6, i % 6) = normal(random);
+  ScoreSystem system(8);
+  const Eigen::MatrixXd light = root * root.transpose() + Eigen::MatrixXd::Identity(6, 6);
+  system.information.topLeftCorner(6, 6) = light;
+  const Eigen::MatrixXd covariance = light.inverse().topLeftCorner(4, 4);
+  EXPECT_TRUE(information_about_ice(system, 4).isApprox(covariance.inverse(), 1e-6));
+}
+
 // Light that knows only differences between parameters does not know any of them, however many they are.
 TEST(IceSolution, ErrorsAreInfiniteWhereOnlyDifferencesAreKnown) {
   for (const int count : {2, 20}) {
