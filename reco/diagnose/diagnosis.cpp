@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <set>
 
 #include "data/base/error.h"
@@ -421,12 +422,28 @@ class Diagnoser {
     }
     // A gap whose names were given up is there all the same.
     if (found_) unexplained = unexplained || accepted_.empty() || *result_.p_of_rest < options_.alpha / 2;
+    unexplained = tell_of_too_many_alike() || unexplained;
     result_.improved = accepted_.model();
     result_.effects = accepted_.effects();
     for (const NamedEffect& effect : result_.effects) result_.verdict.push_back(effect.suspect.effect);
     tell_apart_what_came_in();
     if (unexplained) result_.verdict.push_back("unexplained");
     result_.beside_ice = accepted_.beside_ice();
+  }
+
+  // Strings or modules do not go wrong by threes: what they have in common is more likely one thing, which
+  // the catalogue does not have. Whether there are so many.
+  bool tell_of_too_many_alike() {
+    constexpr std::ptrdiff_t too_many = 3;
+    std::map<std::string, std::ptrdiff_t> places;
+    for (const NamedEffect& effect : accepted_.effects())
+      if (effect.suspect.place.contains("string")) ++places[effect.suspect.effect];
+    const auto most = std::ranges::max_element(places, {}, [](const auto& place) { return place.second; });
+    if (most == places.end() || most->second < too_many) return false;
+    result_.remarks.push_back(
+        fmt::format("{} at {} places at once is more likely one thing that the catalogue does not have",
+                    most->first, most->second));
+    return true;
   }
 
   void tell_what_was_not_tested() {
