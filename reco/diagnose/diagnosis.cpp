@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <set>
 
 #include "data/base/error.h"
@@ -60,8 +59,7 @@ class Diagnoser {
     look_ = look_first(
         base_, [this](std::size_t r, double photons) { return request(r, photons); }, data_);
     leave_out_dark_runs(data_, look_);
-    result_.left_out = data_.left_out;
-    judge_.emplace(base_, data_, look_, options_, judge_stream);
+    take_runs();
     bool unexplained = false;
     for (int step = 0;; ++step) {
       const bool gap = look_at(accepted_.model(), step);
@@ -107,7 +105,7 @@ class Diagnoser {
     const Survey survey = survey_data(model, data_, look_, survey_plan, settings_of_looks(), stages_.part());
     if (survey.bins == 0)
       throw NoResult("not enough light: no receiver of any flasher run sees enough to be compared");
-    if (leave_out_dim_runs(survey)) return look_at(model, step);
+    if (step == 0 && leave_out_dim_runs(survey)) return look_at(model, step);
     DiagnosisStep now;
     judge_fit(survey, now);
     const std::vector<Suspect> suspects = suspects_of(survey, plan);
@@ -130,9 +128,14 @@ class Diagnoser {
       if (survey.runs[r].bins.size() == 0)
         leave_out_run(r, "no receiver sees enough light to be compared", data_, look_);
     if (data_.runs.size() == before) return false;
+    take_runs();
+    return true;
+  }
+
+  // Those that are left.
+  void take_runs() {
     result_.left_out = data_.left_out;
     judge_.emplace(base_, data_, look_, options_, judge_stream);
-    return true;
   }
 
   // Of all that may become a group.
@@ -435,15 +438,16 @@ class Diagnoser {
   // the catalogue does not have. Whether there are so many.
   bool tell_of_too_many_alike() {
     constexpr std::ptrdiff_t too_many = 3;
-    std::map<std::string, std::ptrdiff_t> places;
-    for (const NamedEffect& effect : accepted_.effects())
-      if (effect.suspect.place.contains("string")) ++places[effect.suspect.effect];
-    const auto most = std::ranges::max_element(places, {}, [](const auto& place) { return place.second; });
-    if (most == places.end() || most->second < too_many) return false;
-    result_.remarks.push_back(
-        fmt::format("{} at {} places at once is more likely one thing that the catalogue does not have",
-                    most->first, most->second));
-    return true;
+    const auto name = [](const NamedEffect& effect) { return effect.suspect.effect; };
+    for (const NamedEffect& effect : accepted_.effects()) {
+      const auto places = std::ranges::count(accepted_.effects(), name(effect), name);
+      if (places < too_many) continue;
+      result_.remarks.push_back(
+          fmt::format("{} at {} places at once is more likely one thing that the catalogue does not have",
+                      name(effect), places));
+      return true;
+    }
+    return false;
   }
 
   void tell_what_was_not_tested() {
