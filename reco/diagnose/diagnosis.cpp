@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <iterator>
 #include <set>
 
@@ -12,25 +11,21 @@
 #include "propagation/effects/effect.h"
 #include "reco/diagnose/effect_fits.h"
 #include "reco/diagnose/goodness.h"
+#include "reco/diagnose/leading_suspects.h"
+#include "reco/diagnose/looks.h"
 #include "reco/diagnose/rivals.h"
 #include "reco/diagnose/stages.h"
 #include "reco/ice_fit/model_judge.h"
-#include "reco/validation/two_sample_tests.h"
 
 namespace floe {
 
 namespace {
 
-constexpr std::uint64_t look_stream = std::uint64_t{1} << 44, judge_stream = std::uint64_t{1} << 45,
+constexpr std::uint64_t judge_stream = std::uint64_t{1} << 45,
                         gap_stream = judge_stream + (std::uint64_t{1} << 40);
 // Light of the gap's measurement, in units of that of fits: twice ln L of two simulations differs by tens
 // where they have hardly more light than the data.
 constexpr double light_of_gap = 2;
-constexpr std::size_t most_trials = 3;
-// Of the best chi-square so far, after two rounds and after more: the further a fit has come, the less it
-// catches up. And of the chi-square that the score promises.
-constexpr double hopeless_share = 0.3, hopeless_share_later = 0.7, hopeless_share_of_promise = 0.1;
-constexpr double confirmed_share = 0.4;  // of the gain that a score promised, by a fit
 
 void check_options(const DiagnosisOptions& options, int flashers) {
   check(static_cast<const RunSettings&>(options));
@@ -51,25 +46,24 @@ class Diagnoser {
         data_(std::move(data)),
         options_(options),
         stages_(progress),
+        looks_(base, data_, options, stages_),
         fits_(base, data_, options, stages_),
         accepted_(base) {}
 
   Diagnosis run() {
-    stages_.begin(0, 0.03, "first look");
-    look_ = look_first(
-        base_, [this](std::size_t r, double photons) { return request(r, photons); }, data_);
-    leave_out_dark_runs(data_, look_);
-    take_runs();
     bool unexplained = false;
     for (int step = 0;; ++step) {
-      const bool gap = look_at(accepted_.model(), step);
-      DiagnosisStep& now = result_.steps.back();
-      const bool added = gap && add_effect(now, step);
-      if (step == 0) result_.p_value = std::min(1.0, 2 * std::min(now.p_of_fit, now.scores.p_value));
-      if (added) continue;
+      DiagnosisStep& now = look_at(accepted_.model(), step);
+      if (step == 0) {
+        result_.left_out = data_.left_out;
+        judge_.emplace(base_, data_, looks_.first_look(), options_, judge_stream);
+        result_.p_value = now.p_value();
+      }
+      const bool gap = now.shows_gap(options_);
+      if (gap && add_effect(now, step)) continue;
       // Scores are valid whatever the slopes are: where no fit confirms the name, there is a gap without one.
       // Beside names they see what noise the fits of these have left.
-      unexplained = step == 0 ? gap : now.p_of_fit < options_.alpha / 2;
+      unexplained = step == 0 ? gap : now.p_of_fit < options_.alpha_of_each();
       break;
     }
     finish(unexplained);
@@ -78,121 +72,32 @@ class Diagnoser {
   }
 
  private:
-  Draws draws() const { return {options_.draws, options_.seed, options_.threads}; }
-  RunRequest request(std::size_t r, double photons) const {
-    return request_of(data_.runs[r], options_, photons, look_stream + r);
-  }
-
-  // Nobody knows how many steps there will be: each takes three fifths of what is left.
-  static double begin(int step) { return 0.03 + 0.87 * (1 - std::pow(0.4, step)); }
-
-  // Few runs leave time for more light.
-  RunSettings settings_of_looks() const {
-    constexpr double least_in_all = 10;  // in units of the least hits of a run
-    RunSettings settings = options_;
-    settings.light.least_hits *= std::max(1.0, least_in_all / static_cast<double>(data_.runs.size()));
-    return settings;
-  }
-
-  // Whether there is a significant gap.
-  bool look_at(const Model& model, int step) {
-    const double from = begin(step), length = begin(step + 1) - from;
-    stages_.begin(from, from + length * 0.4, step == 0 ? "looking for a gap" : "looking again");
-    const SuspectPlan plan =
-        plan_suspects(model, flasher_depths(data_, *model.detector), flasher_count(data_), options_.oversize);
-    SurveyPlan survey_plan{.parameters = plan.parameters};
-    survey_plan.stream = static_cast<std::uint64_t>(step);
-    const Survey survey = survey_data(model, data_, look_, survey_plan, settings_of_looks(), stages_.part());
-    if (survey.bins == 0)
-      throw NoResult("not enough light: no receiver of any flasher run sees enough to be compared");
-    if (step == 0 && leave_out_dim_runs(survey)) return look_at(model, step);
-    DiagnosisStep now;
-    judge_fit(survey, now);
-    const std::vector<Suspect> suspects = suspects_of(survey, plan);
-    const ScoreTester tester(survey, suspects, plan.parameters, draws());
-    now.scores = tester.test(measured_counts(survey), options_.floor);
-    const std::vector<Axis> axes = axes_of(model, survey);
-    now.where = where_is_the_gap(survey, axes, draws());
-    find_separations(survey, axes, tester, now.scores);
-    result_.steps.push_back(std::move(now));
+  DiagnosisStep& look_at(const Model& model, int step) {
+    result_.steps.push_back(looks_.look_at(model, step));
     result_.looked_at_improved = true;
-    neg_llh_so_far_.reset();
-    const DiagnosisStep& last = result_.steps.back();
-    return last.scores.p_value < options_.alpha / 2 || last.p_of_fit < options_.alpha / 2;
-  }
-
-  // They would count as flashers that tell of their ice. Whether there were any.
-  bool leave_out_dim_runs(const Survey& survey) {
-    const std::size_t before = data_.runs.size();
-    for (std::size_t r = before; r-- > 0;)
-      if (survey.runs[r].bins.size() == 0)
-        leave_out_run(r, "no receiver sees enough light to be compared", data_, look_);
-    if (data_.runs.size() == before) return false;
-    take_runs();
-    return true;
-  }
-
-  // Those that are left.
-  void take_runs() {
-    result_.left_out = data_.left_out;
-    judge_.emplace(base_, data_, look_, options_, judge_stream);
-  }
-
-  // Of all that may become a group.
-  void find_separations(const Survey& survey, const std::vector<Axis>& axes, const ScoreTester& tester,
-                        const ScoreTest& scores) {
-    separations_.clear();
-    std::vector<const Score*> rivals;
-    for (const EffectScore& effect : scores.effects)
-      if (is_inseparable(effect, scores.effects.front()) || leads(effect, scores.effects.front()))
-        rivals.push_back(&effect.best);
-    for (const Score* one : rivals)
-      for (const Score* other : rivals)
-        if (one != other)
-          separations_.push_back(separation(survey, axes, tester.difference(*one, other->suspect.effect),
-                                            one->suspect.effect, other->suspect.effect));
-  }
-
-  void judge_fit(const Survey& survey, DiagnosisStep& now) const {
-    now.neg_llh = total_neg_llh(survey, measured_counts(survey));
-    const ExpectedFit right = expected_fit(survey, draws());
-    now.expected = right.mean;
-    now.scatter = right.scatter;
-    now.p_of_fit = probability_of(now.neg_llh - neg_llh_of_floor(), right);
-  }
-
-  // Of differences between programs as large as the floor, everywhere: they are no gap.
-  double neg_llh_of_floor() const {
-    double charge = 0;
-    for (const RunData& run : data_.runs) charge += run.charge;
-    return options_.floor * options_.floor * charge / 2;
-  }
-
-  double neg_llh_of_all(const Model& model) const {
-    double sum = 0;
-    for (std::size_t r = 0; r < data_.runs.size(); ++r) sum += judge_->measure(model, r).neg_llh;
-    return sum;
+    return result_.steps.back();
   }
 
   // Fits the leading suspects and adds the best, when its fit confirms what its score said.
   bool add_effect(DiagnosisStep& now, int step) {
-    if (now.scores.effects.empty() || now.scores.p_value >= options_.alpha / 2) return false;
+    if (now.scores.effects.empty() || now.scores.p_value >= options_.alpha_of_each()) return false;
     if (step == options_.most_effects) {
       result_.remarks.push_back(
           fmt::format("{} was suspected beside them (p = {:.2g}); no more than {} effects are added",
                       text_of(now.scores.effects.front().best.suspect), now.scores.p_value, step));
       return false;
     }
-    std::vector<Candidate> candidates = fit_leading(now, step);
+    LeadingSuspects suspects({base_, accepted_, fits_, *judge_, stages_}, now, step);
+    std::vector<Candidate> candidates = suspects.fit(result_.remarks);
     if (candidates.empty()) {
       if (const Suspect& leader = now.scores.effects.front().best.suspect; accepted_.has(leader))
         result_.remarks.push_back(
             fmt::format("What stays looks like more of {}, not as it was fitted", text_of(leader)));
       return false;
     }
-    const auto unconfirmed =
-        std::stable_partition(candidates.begin(), candidates.end(),
-                              [&](const Candidate& candidate) { return is_confirmed(candidate.trial, now); });
+    const auto unconfirmed = std::stable_partition(
+        candidates.begin(), candidates.end(),
+        [&](const Candidate& candidate) { return suspects.is_confirmed(candidate.trial); });
     std::vector<Candidate> others(std::make_move_iterator(unconfirmed),
                                   std::make_move_iterator(candidates.end()));
     candidates.erase(unconfirmed, candidates.end());
@@ -211,117 +116,13 @@ class Diagnoser {
 
   // The best comes first.
   void choose(std::vector<Candidate>& candidates, int step) {
-    const double from = begin(step), to = begin(step + 1);
-    stages_.begin(from + (to - from) * 0.8, to, "which of them is missing");
+    stages_.begin_in_step(step, 0.8, 1, "which of them is missing");
     hold_contest(
         base_, judge_->noise_of_differences(),
         [this](const auto& parameters, const auto& settled) {
           return fits_.fit_rivals(accepted_.parameters(parameters), settled);
         },
         candidates);
-  }
-
-  std::vector<Candidate> fit_leading(const DiagnosisStep& now, int step) {
-    std::vector<Candidate> candidates;
-    candidates.reserve(most_trials + 1);  // and the leader at another place
-    std::size_t effects = 0;
-    const Candidate* confirmed = nullptr;  // the leader
-    const double from = begin(step), length = begin(step + 1) - from;
-    const EffectScore& leader = now.scores.effects.front();
-    for (const EffectScore& score : now.scores.effects) {
-      const Score& suspect = score.best;
-      if (!leads(score, leader) || effects == most_trials || accepted_.has(suspect.suspect) ||
-          is_more_of_accepted(score, now.scores))
-        continue;
-      // Others have looks of their own once the leader is in the model.
-      if (confirmed &&
-          !is_alternative(score, leader, neg_llh_so_far() - confirmed->trial.neg_llh, confirmed->left))
-        continue;
-      const double done = 0.4 + 0.4 * static_cast<double>(effects++) / most_trials;
-      stages_.begin(from + length * done, from + length * (done + 0.13),
-                    "fitting " + text_of(suspect.suspect));
-      add_fitted(suspect, candidates);
-      if (&score != &leader) continue;
-      if (!candidates.empty() && is_confirmed(candidates.front().trial, now)) confirmed = &candidates.front();
-      // The leader's place, too, is only the best of those that were tried.
-      if (score.elsewhere && !accepted_.has(score.elsewhere->suspect))
-        add_fitted(*score.elsewhere, candidates);
-    }
-    return candidates;
-  }
-  void add_fitted(const Score& score, std::vector<Candidate>& candidates) {
-    try {
-      double best = 0;
-      for (const Candidate& candidate : candidates) best = std::max(best, candidate.trial.chi_square);
-      candidates.push_back(fitted(score, best));
-    } catch (const InputError&) {
-      result_.remarks.push_back(
-          fmt::format("{} could not be fitted: no physical ice on its way", text_of(score.suspect)));
-    }
-  }
-
-  // What an effect that is in the model already would explain best must not go to what is like it.
-  bool is_more_of_accepted(const EffectScore& effect, const ScoreTest& scores) const {
-    constexpr double alike = 0.5;
-    return accepted_.has(scores.effects.front().best.suspect) && effect.likeness > alike;
-  }
-
-  // `best`: chi-square of the best so far. A fit that stays far behind it, or what was promised, need not go
-  // on.
-  Candidate fitted(const Score& score, double best) const {
-    Candidate candidate;
-    Trial& trial = candidate.trial;
-    trial.suspect = score.suspect;
-    trial.parameters = fit_parameters(score.suspect, score.amplitudes, base_);
-    const auto chi_square = [&](const IceFit& fit) {
-      return chi_square_of(trial.parameters, fit, accepted_.parameter_count(), base_);
-    };
-    const double promised = hopeless_share_of_promise * 2 * score.gain;
-    candidate.fit = fits_.fit(accepted_.parameters(trial.parameters), [&](const IceFit& fit) {
-      const double share = fit.rounds > 2 ? hopeless_share_later : hopeless_share;
-      return chi_square(fit) < std::max(share * best, promised);
-    });
-    judge(with_parameters(base_, candidate.fit.parameters, candidate.fit.numbers), candidate);
-    trial.chi_square = chi_square(candidate.fit);
-    for (std::size_t i = 0; i < trial.parameters.size(); ++i) {
-      const std::size_t at = accepted_.parameter_count() + i;
-      trial.values.push_back(candidate.fit.value(at));
-      trial.errors.push_back(candidate.fit.error(at));
-    }
-    return candidate;
-  }
-
-  void judge(const Model& model, Candidate& candidate) const {
-    // Standard deviations. Data that happen to be liked better than that tell no more of what is left.
-    constexpr double at_most = 3, lucky = -1;
-    const std::vector<ModelJudge::Fit> fits = judge_->judge_all(model);
-    candidate.trial.neg_llh = neg_llh_of(fits);
-    const ExpectedFit right = right_fit(fits);
-    candidate.left =
-        std::max(candidate.trial.neg_llh - right.mean, lucky * right.scatter) + at_most * right.scatter;
-  }
-
-  // The score chose the best of many suspects, and of noisy slopes: fresh light has to show a good part of
-  // it, in the fit or, since chi-squares about the model without the effect are short of what it gains where
-  // its slopes change on the way, in what it gains.
-  bool is_confirmed(const Trial& trial, const DiagnosisStep& now) {
-    constexpr double by_chance = 0.01;
-    if (chi_square_probability(trial.chi_square, static_cast<double>(trial.parameters.size())) > by_chance)
-      return false;
-    const double wanted = confirmed_share * score_of(trial, now).best.gain;
-    return trial.chi_square / 2 > wanted ||
-           neg_llh_so_far() - trial.neg_llh > wanted + 2 * judge_->noise_of_differences();
-  }
-  // Every trial is of an effect that has a score.
-  static const EffectScore& score_of(const Trial& trial, const DiagnosisStep& now) {
-    return *std::find_if(now.scores.effects.begin(), now.scores.effects.end(), [&](const EffectScore& score) {
-      return score.best.suspect.effect == trial.suspect.effect;
-    });
-  }
-  // Of the model with all that was accepted before this step.
-  double neg_llh_so_far() {
-    if (!neg_llh_so_far_) neg_llh_so_far_ = neg_llh_of_all(accepted_.model());
-    return *neg_llh_so_far_;
   }
 
   void accept(DiagnosisStep& now, const IceFit& fit) {
@@ -333,7 +134,7 @@ class Diagnoser {
     for (const EffectScore& other : now.scores.effects)
       if (!accepted_.has(other.best.suspect) && cannot_be_told(other, now))
         named.group.push_back(other.best.suspect.effect);
-    for (const Separation& separation : separations_)
+    for (const Separation& separation : now.separations)
       if (separation.effect == named.group.front() && contains(named.group, separation.other))
         named.separations.push_back(separation);
     for (const Trial& rival : now.trials)
@@ -374,7 +175,8 @@ class Diagnoser {
       if (trial.suspect.effect == effect) return lost_narrowly(trial);  // fits decide where there are some
     // Likeness is known to the leader of the scores: who is like the leader, as the winner is, is alike.
     const EffectScore& leader = now.scores.effects.front();
-    return is_inseparable(score_of(now.trials.front(), now), leader) && is_inseparable(other, leader);
+    return is_inseparable(now.scores.of(now.trials.front().suspect.effect), leader) &&
+           is_inseparable(other, leader);
   }
 
   // A new effect may explain an earlier one away.
@@ -424,8 +226,9 @@ class Diagnoser {
       result_.looked_at_improved = true;
     }
     // A gap whose names were given up is there all the same.
-    if (found_) unexplained = unexplained || accepted_.empty() || *result_.p_of_rest < options_.alpha / 2;
-    unexplained = tell_of_too_many_alike() || unexplained;
+    if (found_)
+      unexplained = unexplained || accepted_.empty() || *result_.p_of_rest < options_.alpha_of_each();
+    unexplained = tell_of_too_many_alike() || unexplained || !result_.is_confirmed();
     result_.improved = accepted_.model();
     result_.effects = accepted_.effects();
     for (const NamedEffect& effect : result_.effects) result_.verdict.push_back(effect.suspect.effect);
@@ -485,7 +288,7 @@ class Diagnoser {
     RunSettings settings = options_;
     if (found_) settings.light.light *= light_of_gap, settings.light.least_hits *= light_of_gap;
     result_.folds = std::min(options_.folds, flasher_count(data_));
-    HeldOutGaps gaps(base_, data_, look_, settings, gap_stream, result_.folds, fits_);
+    HeldOutGaps gaps(base_, data_, looks_.first_look(), settings, gap_stream, result_.folds, fits_);
     for (std::size_t r = 0; r < data_.runs.size(); ++r)
       result_.gaps.push_back({data_.runs[r].name, gaps.of_base().of_runs[r], 0});
     result_.gap_before = gaps.of_base().total();
@@ -510,8 +313,9 @@ class Diagnoser {
       result_.remarks.push_back(
           fmt::format("What runs do not tell of others makes the gap after larger by {:.0f} on average",
                       result_.gap_unknown));
-    result_.p_of_rest = accepted_.empty() ? gaps.p_of_base(neg_llh_of_floor())
-                                          : gaps.p_of(accepted_.model(), neg_llh_of_floor());
+    result_.p_of_rest = accepted_.empty()
+                            ? gaps.p_of_base(neg_llh_of_floor(data_, options_.floor))
+                            : gaps.p_of(accepted_.model(), neg_llh_of_floor(data_, options_.floor));
   }
   void take_gaps(const Gaps& gaps) {
     for (std::size_t r = 0; r < gaps.of_runs.size(); ++r) result_.gaps[r].after = gaps.of_runs[r];
@@ -552,13 +356,11 @@ class Diagnoser {
   FlasherData data_;
   const DiagnosisOptions& options_;
   Stages stages_;
-  FirstLook look_;
-  std::optional<ModelJudge> judge_;
+  Looks looks_;
+  std::optional<ModelJudge> judge_;  // of the runs that the first look has left
   EffectFits fits_;
   AcceptedEffects accepted_;
   bool found_ = false;  // anything, even if it was given up again
-  std::optional<double> neg_llh_so_far_;
-  std::vector<Separation> separations_;  // of the last look's leading effects, each from each other
   Diagnosis result_;
 };
 

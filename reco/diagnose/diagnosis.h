@@ -11,38 +11,15 @@
 #include "propagation/effects_file.h"
 #include "propagation/model.h"
 #include "reco/diagnose/accepted_effects.h"
-#include "reco/diagnose/contest.h"
+#include "reco/diagnose/diagnosis_options.h"
 #include "reco/diagnose/held_out_gaps.h"
-#include "reco/diagnose/score_test.h"
-#include "reco/diagnose/where.h"
-#include "reco/ice_fit/ice_fit.h"
+#include "reco/diagnose/looks.h"
 #include "reco/ice_fit/run_data.h"
-#include "reco/ice_fit/run_plan.h"
 
 namespace floe {
 
 // Changes whenever results of diagnoses or of their trials do.
-constexpr int diagnosis_revision = 15;
-
-struct DiagnosisOptions : RunSettings {
-  DiagnosisOptions() { light = {2, 2e4, 2e11}; }
-  double alpha = 0.01;   // probability of naming anything when nothing is missing
-  double floor = 0.005;  // changes of light smaller than this, relative, are not told from differences
-                         // between programs
-  int folds = 3;         // groups of runs, each held out once; 1 to the number of flashers
-  int draws = 300;       // of light under the model, for each calibration
-  int most_effects = 4;  // that are added, one after another
-};
-
-// One look at a model: is anything missing, where, and what could it be?
-struct DiagnosisStep {
-  double neg_llh = 0, expected = 0, scatter = 0;  // -ln L of all runs; mean and deviation if all were right
-  double p_of_fit = 1;                            // of so bad a fit
-  ScoreTest scores;
-  Whereabouts where;
-  std::vector<Trial> trials;    // of the leading suspects, the best first
-  std::optional<size_t> added;  // of Diagnosis::effects; none: nothing was
-};
+constexpr int diagnosis_revision = 16;
 
 struct Diagnosis {
   std::vector<std::string> verdict;  // as in result.json
@@ -71,6 +48,8 @@ struct Diagnosis {
   // A share that means something only where the gap is larger than its scatter; see has_clear_gap().
   double closed() const { return gap_before != 0 ? 1 - gap_after / gap_before : 0; }
   bool has_clear_gap() const { return gap_before > 3 * gap_scatter; }
+  // Whether runs that were held out see most of a clear gap closed, or what is left of it is not clear.
+  bool is_confirmed() const { return !has_clear_gap() || closed() >= 0.5 || gap_after < 3 * gap_scatter; }
 };
 
 // Throws UsageError for options out of range, NoResult when no run has light.

@@ -51,6 +51,12 @@ ExpectedFit right_fit(const std::vector<ModelJudge::Fit>& fits) {
   return right;
 }
 
+double neg_llh_of_floor(const FlasherData& data, double floor) {
+  double charge = 0;
+  for (const RunData& run : data.runs) charge += run.charge;
+  return floor * floor * charge / 2;
+}
+
 double probability_of(double neg_llh, const ExpectedFit& right) {
   const double variance = right.scatter * right.scatter;
   neg_llh = std::max(0.0, neg_llh);  // less than a floor

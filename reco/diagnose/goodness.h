@@ -22,6 +22,9 @@ ExpectedFit expected_fit(const Survey& survey, const Draws& draws);
 double neg_llh_of(const std::vector<ModelJudge::Fit>& fits);
 ExpectedFit right_fit(const std::vector<ModelJudge::Fit>& fits);
 
+// Of differences between programs as large as the floor, everywhere: they are no gap.
+double neg_llh_of_floor(const FlasherData& data, double floor);
+
 // Of a -ln L at least as large, by chance: twice it is nearly a chi-square, and becomes one of the same mean
 // and deviation when it is scaled.
 double probability_of(double neg_llh, const ExpectedFit& right);

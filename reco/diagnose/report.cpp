@@ -296,7 +296,7 @@ std::string step_text(const Diagnosis& diagnosis, std::size_t i) {
 }
 
 std::string closing_text(const Diagnosis& diagnosis) {
-  if (diagnosis.has_clear_gap())
+  if (diagnosis.has_clear_gap() && diagnosis.closed() >= 0)
     return fmt::format("{:.0f}% of the gap in {} closes", 100 * diagnosis.closed(), judged_runs(diagnosis));
   return fmt::format("the gap in {} goes from {:.1f} to {:.1f}, where chance makes +- {:.1f}",
                      judged_runs(diagnosis), diagnosis.gap_before, diagnosis.gap_after,
@@ -333,6 +333,13 @@ constexpr const char* style =
     "padding:.8em 1em;border-left:4px solid #2166ac}.plots{display:flex;flex-wrap:wrap;gap:.5em}"
     ".key{font-size:.9em}code{background:#f4f4f4;padding:.1em .3em;overflow-wrap:anywhere}";
 
+// Beside names.
+const char* rest_text(const Diagnosis& diagnosis) {
+  if (diagnosis.verdict.back() != "unexplained") return "";
+  return diagnosis.is_confirmed() ? "; something remains that no effect of the catalogue explains"
+                                  : "; runs that were held out do not confirm it";
+}
+
 }  // namespace
 
 const char* judged_runs(const Diagnosis& diagnosis) {
@@ -343,7 +350,6 @@ std::string verdict_sentence(const Diagnosis& diagnosis, double alpha) {
   if (diagnosis.verdict.empty())
     return fmt::format("Nothing is missing: the data agree with the model (p = {}, alpha = {:g}).",
                        p_text(diagnosis.p_value), alpha);
-  const bool unexplained = diagnosis.verdict.back() == "unexplained";
   std::string text;
   for (const NamedEffect& effect : diagnosis.effects)
     text +=
@@ -353,8 +359,7 @@ std::string verdict_sentence(const Diagnosis& diagnosis, double alpha) {
     return fmt::format("Something is missing (p = {}) that no effect of the catalogue explains.",
                        p_text(diagnosis.p_value));
   return fmt::format("Missing: {} (p = {} for the base model); {}{}.", text, p_text(diagnosis.p_value),
-                     closing_text(diagnosis),
-                     unexplained ? "; something remains that no effect of the catalogue explains" : "");
+                     closing_text(diagnosis), rest_text(diagnosis));
 }
 
 std::string report_html(const Diagnosis& diagnosis, const DiagnosisOptions& options,

@@ -263,6 +263,11 @@ std::optional<Score> ScoreTester::elsewhere(const Score& best, const VectorXd& g
   return score_of(*most, gap, floor);
 }
 
+const EffectScore& ScoreTest::of(const std::string& effect) const {
+  return *std::ranges::find_if(effects,
+                               [&](const EffectScore& score) { return score.best.suspect.effect == effect; });
+}
+
 ScoreTest ScoreTester::test(const SurveyCounts& counts, double floor) const {
   const VectorXd gap = gap_of(survey_, counts);
   // By effect, the suspect that surprises the most.

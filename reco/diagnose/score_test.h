@@ -42,6 +42,8 @@ struct ScoreTest {
   // imitate. 1 on the diagonal.
   Eigen::MatrixXd likeness;
   double p_value = 1;  // of the first, for everything tried
+
+  const EffectScore& of(const std::string& effect) const;  // one of the effects
 };
 
 // A suspect with what its test needs.

@@ -49,6 +49,12 @@ RunMeasurement ModelJudge::measure(const Model& model, std::size_t run) const {
   return measured(simulate_run(model, request(run, 1, photons_[run])), run);
 }
 
+double ModelJudge::neg_llh(const Model& model) const {
+  double sum = 0;
+  for (std::size_t r = 0; r < data_.runs.size(); ++r) sum += measure(model, r).neg_llh;
+  return sum;
+}
+
 ModelJudge::Fit ModelJudge::judge(const Model& model, std::size_t run) const {
   SimulatedRun simulated = simulate_run(model, request(run, 1, photons_[run]));
   Fit fit;

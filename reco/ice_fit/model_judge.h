@@ -25,6 +25,7 @@ class ModelJudge {
 
   // -ln L of a run at its best brightness and time zero.
   RunMeasurement measure(const Model& model, std::size_t run) const;
+  double neg_llh(const Model& model) const;  // of all runs
   // The same, and what it would be if the model were true: mean and standard deviation.
   struct Fit {
     RunMeasurement measured;

@@ -72,6 +72,19 @@ TEST_F(Report, SaysWhatIsMissingAndHowMuchOfTheGapCloses) {
   EXPECT_NE(sentence().find("something remains that no effect of the catalogue explains"), std::string::npos);
 }
 
+// Names that only the runs which they were fitted to tell of.
+TEST_F(Report, SaysWhenHeldOutRunsDoNotConfirmIt) {
+  find_anisotropy();
+  diagnosis_.gap_after = diagnosis_.gap_before;
+  diagnosis_.verdict.push_back("unexplained");
+  EXPECT_NE(
+      sentence().find("0% of the gap in held-out runs closes; runs that were held out do not confirm it"),
+      std::string::npos)
+      << sentence();
+  diagnosis_.gap_after = 1.1 * diagnosis_.gap_before;
+  EXPECT_NE(sentence().find("goes from 200.0 to 220.0"), std::string::npos) << sentence();
+}
+
 // A share of a gap that may be chance means nothing.
 TEST_F(Report, GivesNoShareOfAGapThatMayBeChance) {
   find_anisotropy();
