@@ -86,10 +86,16 @@ void expect_outputs_apart(const CLI::App& command) {
                                      output->get_name(), other->get_name(), output->results().front()));
 }
 
-std::string quoted_command_line(int argc, char** argv) {
-  std::string line = "floe";
-  for (int i = 1; i < argc; ++i) line.append(" ").append(quoted(argv[i]));
+std::string quoted_command(const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& word : words) line.append(line.empty() ? "" : " ").append(quoted(word));
   return line;
+}
+
+std::string quoted_command_line(int argc, char** argv) {
+  std::vector<std::string> words = {"floe"};
+  words.insert(words.end(), argv + 1, argv + argc);
+  return quoted_command(words);
 }
 
 int report_parse_error(const CLI::App& app, const CLI::ParseError& error) {

@@ -3,12 +3,15 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 namespace floe {
 
 inline constexpr int internal_error = 70;  // exit code, as in sysexits.h
 
-// What was typed, quoted where a shell needs it.
+// Words that a shell takes for these, one space between them.
+std::string quoted_command(const std::vector<std::string>& words);
+// What was typed, likewise.
 std::string quoted_command_line(int argc, char** argv);
 
 // Prints help or version when that was asked for, or says on stderr what is wrong with the command

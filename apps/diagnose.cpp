@@ -6,6 +6,7 @@
 #include <memory>
 #include <system_error>
 
+#include "apps/command_line.h"
 #include "apps/commands.h"
 #include "apps/common_options.h"
 #include "apps/flasher_input.h"
@@ -125,6 +126,7 @@ Json diagnosis_json(const Diagnosis& diagnosis, const DiagnoseCommand& command, 
                {"not_tested", diagnosis.not_tested},
                {"remarks", diagnosis.remarks},
                {"verdict", diagnosis.verdict},
+               {"why_unexplained", diagnosis.why_unexplained},
                {"groups", Json::object()},
                {"where", Json::array()},
                {"effects", Json::array()},
@@ -188,6 +190,22 @@ std::string changes_text(const Diagnosis& diagnosis, const DiagnoseCommand& comm
                      summary(diagnosis, command));
 }
 
+// What an ice directory does not hold has to be said again.
+std::string command_to_look_again(const DiagnoseCommand& command) {
+  std::vector<std::string> words = {"floe", "diagnose", command.data, "--ice",
+                                    (std::filesystem::path(command.folder) / improved_ice_folder).string()};
+  const auto add = [&](const std::string& option, const std::string& value) {
+    words.push_back(option), words.push_back(value);
+  };
+  const bool is_built_in = !std::filesystem::is_directory(command.model.ice);
+  if (command.model.detector || is_built_in) add("--detector", command.model.detector.value_or("ic86"));
+  for (const std::string& effect : command.model.without)
+    if (effect == "cable-shadow") add("--without", effect);
+  if (command.run.oversize_given) add("--oversize", fmt::format("{:g}", command.run.oversize));
+  add("-o", "again");
+  return quoted_command(words);
+}
+
 void run_diagnose(const DiagnoseCommand& given) {
   DiagnoseCommand command = given;
   command.options.seed = command.run.seed;
@@ -209,12 +227,15 @@ void run_diagnose(const DiagnoseCommand& given) {
   }
   const std::string result = json_text(diagnosis_json(diagnosis, command, base));
   const std::filesystem::path ice = command.model.ice;
-  const ReportFacts facts{
-      command.data,     (ice.has_filename() ? ice : ice.parent_path()).filename().string(),
-      command.command,  FLOE_VERSION,
-      base.ice->hash(), diagnosis.improved.ice->hash(),
-      command.folder,   base.ice->flow_azimuth() / degree,
-      command.run.seed};
+  const ReportFacts facts{command.data,
+                          (ice.has_filename() ? ice : ice.parent_path()).filename().string(),
+                          command.command,
+                          FLOE_VERSION,
+                          base.ice->hash(),
+                          diagnosis.improved.ice->hash(),
+                          command_to_look_again(command),
+                          base.ice->flow_azimuth() / degree,
+                          command.run.seed};
   write_whole_file(folder.temporary() / "result.json", result);
   write_whole_file(folder.temporary() / "report.html", report_html(diagnosis, command.options, facts));
   write_improved_ice(command.model, diagnosis.improved, diagnosis.beside_ice,

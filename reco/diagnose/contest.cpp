@@ -14,7 +14,6 @@ constexpr double behind = 1;         // likewise: is believed if its own fit, to
 constexpr double little = 0.7;       // of the other's chi-square
 constexpr double undecided = 6;      // differences of chi-square, less one for each parameter
 constexpr double beyond_doubt = 25;  // differences of chi-square: not worth more rounds
-constexpr double needed = 9;         // chi-square of an effect that is there beside the other
 constexpr double held = 1e-3;  // width of a prior, in the parameter's scale, that leaves a band where it is
 
 double parameters_in(const Trial& trial) {
@@ -105,10 +104,6 @@ void hold_contest(const Model& base, double noise, const FitBeside& fit, std::ve
 
 bool lost_narrowly(const Trial& trial) {
   return trial.untold || (trial.lost && trial.lost->lead < undecided);
-}
-
-bool is_there_as_well(const Trial& trial) {
-  return trial.lost && trial.lost->loser >= needed;
 }
 
 }  // namespace floe

@@ -57,7 +57,4 @@ void hold_contest(const Model& base, double noise, const FitBeside& fit, std::ve
 // Whether the duel that it lost was too close to tell it from the winner, or there could be none.
 bool lost_narrowly(const Trial& trial);
 
-// Whether it lost its duel, but is needed beside the winner.
-bool is_there_as_well(const Trial& trial);
-
 }  // namespace floe

@@ -26,6 +26,7 @@ constexpr std::uint64_t judge_stream = std::uint64_t{1} << 45,
 // Light of the gap's measurement, in units of that of fits: twice ln L of two simulations differs by tens
 // where they have hardly more light than the data.
 constexpr double light_of_gap = 2;
+constexpr double confirmed_share = 0.5;  // of a gap, that closes in runs which were held out
 
 void check_options(const DiagnosisOptions& options, int flashers) {
   check(static_cast<const RunSettings&>(options));
@@ -215,42 +216,43 @@ class Diagnoser {
   }
 
   void finish(bool unexplained) {
-    // Where all that may be added still leaves a gap, each has taken a part of what none of them is.
-    const std::size_t named = accepted_.effects().size(), looks = result_.steps.size();
-    if (unexplained && looks > static_cast<std::size_t>(options_.most_effects) && named > 1)
-      while (!accepted_.empty())
-        give_up(0, fmt::format("{} effects together leave a gap, and none of them names it", named));
-    measure_gaps();
-    if (!accepted_.empty() && !result_.looked_at_improved) {
+    measure_gaps(unexplained);
+    if (!accepted_.empty() && !result_.looked_at_improved)
       look_at(accepted_.model(), options_.most_effects + 1);
-      result_.looked_at_improved = true;
-    }
     // A gap whose names were given up is there all the same.
     if (found_)
       unexplained = unexplained || accepted_.empty() || *result_.p_of_rest < options_.alpha_of_each();
-    unexplained = tell_of_too_many_alike() || unexplained || !result_.is_confirmed();
     result_.improved = accepted_.model();
     result_.effects = accepted_.effects();
     for (const NamedEffect& effect : result_.effects) result_.verdict.push_back(effect.suspect.effect);
     tell_apart_what_came_in();
-    if (unexplained) result_.verdict.push_back("unexplained");
+    if (!accepted_.empty()) tell_why_unexplained(unexplained);
+    if (unexplained || !result_.why_unexplained.empty()) result_.verdict.push_back("unexplained");
     result_.beside_ice = accepted_.beside_ice();
   }
 
+  void tell_why_unexplained(bool something_remains) {
+    std::vector<std::string>& why = result_.why_unexplained;
+    if (something_remains) why.push_back("something remains that no effect of the catalogue explains");
+    if (result_.has_clear_gap() && result_.is_clear(result_.gap_after) && result_.closed() < confirmed_share)
+      why.push_back(result_.folds > 1 ? "runs that were held out do not confirm it"
+                                      : "most of the gap stays");
+    tell_of_too_many_alike(why);
+  }
+
   // Strings or modules do not go wrong by threes: what they have in common is more likely one thing, which
-  // the catalogue does not have. Whether there are so many.
-  bool tell_of_too_many_alike() {
+  // the catalogue does not have.
+  void tell_of_too_many_alike(std::vector<std::string>& why) const {
     constexpr std::ptrdiff_t too_many = 3;
-    const auto name = [](const NamedEffect& effect) { return effect.suspect.effect; };
-    for (const NamedEffect& effect : accepted_.effects()) {
-      const auto places = std::ranges::count(accepted_.effects(), name(effect), name);
-      if (places < too_many) continue;
-      result_.remarks.push_back(
-          fmt::format("{} at {} places at once is more likely one thing that the catalogue does not have",
-                      name(effect), places));
-      return true;
-    }
-    return false;
+    std::set<std::string> names;
+    for (const NamedEffect& effect : accepted_.effects()) names.insert(effect.suspect.effect);
+    for (const std::string& name : names)
+      if (const auto places = std::ranges::count(
+              accepted_.effects(), name, [](const NamedEffect& effect) { return effect.suspect.effect; });
+          places >= too_many)
+        why.push_back(
+            fmt::format("{} at {} places at once is more likely one thing that the catalogue does not have",
+                        name, places));
   }
 
   void tell_what_was_not_tested() {
@@ -262,28 +264,29 @@ class Diagnoser {
         result_.not_tested[effect->name()] = why_no_suspect(effect->name(), base_, options_.oversize);
   }
 
-  // A rival that a joint fit needed as well is no alternative once it has been named itself.
+  // What is needed beside an effect is no alternative to it.
   void tell_apart_what_came_in() {
     for (const DiagnosisStep& step : result_.steps) {
       if (!step.added) continue;
       NamedEffect& winner = result_.effects[*step.added];
-      for (const Trial& trial : step.trials) {
-        const std::string& rival = trial.suspect.effect;
-        if (rival == winner.suspect.effect) continue;  // at another place
-        const bool named = std::ranges::any_of(result_.effects, [&](const NamedEffect& effect) {
-          return effect.suspect.effect == rival && is_same_place(effect.suspect.place, trial.suspect.place);
-        });
-        if (!is_there_as_well(trial) || !named) continue;
-        std::erase(winner.group, rival);
-        std::erase_if(winner.separations, [&](const Separation& other) { return other.other == rival; });
-      }
+      const auto is_named_itself = [&](const std::string& other) {
+        return other != winner.suspect.effect &&
+               std::ranges::any_of(result_.effects, [&](const NamedEffect& effect) {
+                 return effect.suspect.effect == other &&
+                        is_same_place(effect.suspect.place, step.scores.of(other).best.suspect.place);
+               });
+      };
+      std::erase_if(winner.group, is_named_itself);
+      std::erase_if(winner.separations,
+                    [&](const Separation& separation) { return is_named_itself(separation.other); });
     }
   }
 
   // Gives up effects that make light worse which the fit has not seen, by more than twice the noise of the
   // simulations and by more than follows from what the others do not tell (of a string that only one flasher
   // lights they tell nothing): the last one first, which may have come by what an earlier one has left.
-  void measure_gaps() {
+  // `gap_stays`: the last look saw one.
+  void measure_gaps(bool gap_stays) {
     constexpr double too_much = 2;
     RunSettings settings = options_;
     if (found_) settings.light.light *= light_of_gap, settings.light.least_hits *= light_of_gap;
@@ -293,30 +296,51 @@ class Diagnoser {
       result_.gaps.push_back({data_.runs[r].name, gaps.of_base().of_runs[r], 0});
     result_.gap_before = gaps.of_base().total();
     result_.gap_scatter = gaps.scatter_of_base();
+    result_.gap_of_floor = 2 * neg_llh_of_floor(data_, options_.floor);
     take_gaps(gaps.of_base());
     if (!found_) return;
     while (!accepted_.empty()) {
       const Gaps with = gaps.of(accepted_, stages_, 0.9, 0.95);
       take_gaps(with);
+      if (gap_stays && is_patchwork()) {
+        give_up_all();
+        take_gaps(gaps.of_base());
+        break;
+      }
       if (is_past_asking(gaps)) break;
       const Gaps without = without_last(gaps);
       if (with.known() <= without.known() + too_much * gaps.noise_of_differences()) break;
       give_up(accepted_.effects().size() - 1,
               fmt::format("runs that were held out fit worse with it (a gap of {:.1f}, {:.1f} of which the "
-                          "others cannot know) than without ({:.1f}, {:.1f})",
-                          with.total(), with.unknown, without.total(), without.unknown));
+                          "others cannot know) than {} ({:.1f}, {:.1f})",
+                          with.total(), with.unknown,
+                          accepted_.effects().size() == 1 ? "without" : "without it or any of them",
+                          without.total(), without.unknown));
       take_gaps(gaps.of_base());
       refit();
     }
     std::ranges::copy(gaps.remarks(), std::back_inserter(result_.remarks));
     if (result_.gap_unknown > gaps.noise_of_differences())
-      result_.remarks.push_back(
-          fmt::format("What runs do not tell of others makes the gap after larger by {:.0f} on average",
-                      result_.gap_unknown));
+      result_.remarks.push_back(fmt::format(
+          "What runs do not tell of others makes the gap after larger by {:.0f}", result_.gap_unknown));
     result_.p_of_rest = accepted_.empty()
                             ? gaps.p_of_base(neg_llh_of_floor(data_, options_.floor))
                             : gaps.p_of(accepted_.model(), neg_llh_of_floor(data_, options_.floor));
   }
+
+  // Where all that may be added leave a gap, each has taken a part of what none of them is, unless they close
+  // nearly all of it.
+  bool is_patchwork() const {
+    constexpr double nearly_all = 0.8;
+    return accepted_.effects().size() == static_cast<std::size_t>(options_.most_effects) &&
+           accepted_.effects().size() > 1 && result_.closed() < nearly_all;
+  }
+  void give_up_all() {
+    const std::size_t named = accepted_.effects().size();
+    while (!accepted_.empty())
+      give_up(0, fmt::format("{} effects together leave a gap, and none of them names it", named));
+  }
+
   void take_gaps(const Gaps& gaps) {
     for (std::size_t r = 0; r < gaps.of_runs.size(); ++r) result_.gaps[r].after = gaps.of_runs[r];
     result_.gap_after = gaps.total();

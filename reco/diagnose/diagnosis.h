@@ -28,8 +28,9 @@ struct Diagnosis {
   std::vector<DiagnosisStep> steps;  // the base model's first
   std::vector<RunGap> gaps;          // held out
   double gap_before = 0, gap_after = 0;
-  double gap_scatter = 0;  // deviation of a gap, had the model been true
-  double gap_unknown = 0;  // part of the gap after that is due to what runs do not tell of others (Gaps)
+  double gap_scatter = 0;   // deviation of a gap, had the model been true
+  double gap_unknown = 0;   // part of the gap after that is due to what runs do not tell of others (Gaps)
+  double gap_of_floor = 0;  // that differences between programs as large as the floor would make
   // Groups that runs were held out in. 1: none were, and gaps after are of a model that was fitted to these
   // runs.
   int folds = 1;
@@ -38,6 +39,8 @@ struct Diagnosis {
   // Of so bad a fit of the improved model to all runs, measured with the light of gaps; of the base model
   // when everything that was added has been given up again. None: nothing was added.
   std::optional<double> p_of_rest;
+  // Why the verdict ends with "unexplained" beside names, half a sentence each.
+  std::vector<std::string> why_unexplained;
   std::vector<std::string> left_out;              // of the data, a sentence each
   std::map<std::string, std::string> not_tested;  // effects of the catalogue, and why
   std::vector<std::string> remarks;               // effects that were given up again
@@ -45,11 +48,10 @@ struct Diagnosis {
   EffectGroups beside_ice;  // of the effects, those that no file of an ice directory can hold but floe.toml
   double seconds = 0;
 
-  // A share that means something only where the gap is larger than its scatter; see has_clear_gap().
+  // A share that means something only where the gap is clear.
   double closed() const { return gap_before != 0 ? 1 - gap_after / gap_before : 0; }
-  bool has_clear_gap() const { return gap_before > 3 * gap_scatter; }
-  // Whether runs that were held out see most of a clear gap closed, or what is left of it is not clear.
-  bool is_confirmed() const { return !has_clear_gap() || closed() >= 0.5 || gap_after < 3 * gap_scatter; }
+  bool has_clear_gap() const { return is_clear(gap_before); }
+  bool is_clear(double gap) const { return gap - gap_of_floor > 3 * gap_scatter; }
 };
 
 // Throws UsageError for options out of range, NoResult when no run has light.

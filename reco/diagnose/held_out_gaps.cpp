@@ -67,17 +67,23 @@ Gaps HeldOutGaps::of(const AcceptedEffects& effects, Stages& stages, double from
 std::vector<HeldOutGaps::GroupModel> HeldOutGaps::fitted_without(const AcceptedEffects& effects) {
   std::vector<IceParameter> parameters = effects.parameters();
   for (IceParameter& p : parameters) expect_no_change(p, base_);
+  remarks_.clear();
+  std::vector<FitWithout> fits;
+  try {
+    fits = fits_.fit_without(held_out_.left_out(), parameters);
+  } catch (const InputError&) {
+    fits.resize(static_cast<std::size_t>(held_out_.folds()));  // no physical ice on the way of any of them
+  }
   std::vector<GroupModel> groups;
-  for (const FitWithout& fit : fits_.fit_without(held_out_.left_out(), parameters)) {
+  for (const FitWithout& fit : fits) {
     if (fit.numbers) {
       groups.push_back({with_parameters(base_, parameters, *fit.numbers), fit.unknown});
       continue;
     }
     groups.push_back({base_});
-    const std::string remark = fmt::format(
+    remarks_.push_back(fmt::format(
         "Without the runs of group {} of {} the others fit to no physical ice: the base judges these runs",
-        groups.size(), held_out_.folds());
-    if (std::ranges::find(remarks_, remark) == remarks_.end()) remarks_.push_back(remark);
+        groups.size(), held_out_.folds()));
   }
   return groups;
 }

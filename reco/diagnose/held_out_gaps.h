@@ -23,8 +23,7 @@ struct RunGap {
 
 struct Gaps {
   std::vector<double> of_runs;
-  // Part of their sum that is due, on average, to what the runs that a model was fitted to do not tell of it
-  // (FitWithout).
+  // Part of their sum that is due to what the runs that a model was fitted to do not tell of it (FitWithout).
   double unknown = 0;
 
   double total() const;
@@ -53,7 +52,7 @@ class HeldOutGaps {
   double p_of_base(double allowed) const;
   double p_of(const Model& model, double allowed) const;
 
-  // Sentences on groups that the others could not be fitted without.
+  // Sentences on groups that the others could not be fitted without, when effects were held out last.
   const std::vector<std::string>& remarks() const { return remarks_; }
 
  private:

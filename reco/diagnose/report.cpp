@@ -304,16 +304,19 @@ std::string closing_text(const Diagnosis& diagnosis) {
 }
 
 std::string gap_text(const Diagnosis& diagnosis) {
-  return fmt::format(
+  std::string text = fmt::format(
       "<p>Deviance of each run above what it would be on average if the model were true, which scatters by "
-      "{:.1f} "
-      "for all of them; after: {}.</p>\n",
-      diagnosis.gap_scatter,
-      diagnosis.folds > 1
-          ? fmt::format("of models that were fitted to other runs. What these do not tell makes it larger by "
-                        "{:.1f} on average",
-                        diagnosis.gap_unknown)
-          : "of the model that was fitted to these runs, as none was held out");
+      "{:.1f} for all of them; after: ",
+      diagnosis.gap_scatter);
+  if (diagnosis.effects.empty())
+    text += "the same, as nothing was added";
+  else if (diagnosis.folds == 1)
+    text += "of the model that was fitted to these runs, as none was held out";
+  else
+    text += fmt::format(
+        "of models that were fitted to other runs. What these do not tell makes it larger by {:.1f}",
+        diagnosis.gap_unknown);
+  return text + ".</p>\n";
 }
 
 std::string gap_table(const Diagnosis& diagnosis) {
@@ -333,13 +336,6 @@ constexpr const char* style =
     "padding:.8em 1em;border-left:4px solid #2166ac}.plots{display:flex;flex-wrap:wrap;gap:.5em}"
     ".key{font-size:.9em}code{background:#f4f4f4;padding:.1em .3em;overflow-wrap:anywhere}";
 
-// Beside names.
-const char* rest_text(const Diagnosis& diagnosis) {
-  if (diagnosis.verdict.back() != "unexplained") return "";
-  return diagnosis.is_confirmed() ? "; something remains that no effect of the catalogue explains"
-                                  : "; runs that were held out do not confirm it";
-}
-
 }  // namespace
 
 const char* judged_runs(const Diagnosis& diagnosis) {
@@ -358,8 +354,10 @@ std::string verdict_sentence(const Diagnosis& diagnosis, double alpha) {
   if (text.empty())
     return fmt::format("Something is missing (p = {}) that no effect of the catalogue explains.",
                        p_text(diagnosis.p_value));
+  std::string rest;
+  for (const std::string& why : diagnosis.why_unexplained) rest += "; " + why;
   return fmt::format("Missing: {} (p = {} for the base model); {}{}.", text, p_text(diagnosis.p_value),
-                     closing_text(diagnosis), rest_text(diagnosis));
+                     closing_text(diagnosis), rest);
 }
 
 std::string report_html(const Diagnosis& diagnosis, const DiagnosisOptions& options,
@@ -399,12 +397,10 @@ std::string report_html(const Diagnosis& diagnosis, const DiagnosisOptions& opti
       "<h2>To repeat this</h2>\n<p><code>{}</code></p>\n<p>floe {}, seed {}, {:.0f} s. alpha {:g}: the "
       "probability of naming anything when nothing is missing. Floor {:g}%: smaller changes of light are not "
       "told from differences between programs.</p>\n<p>Base model {}, improved model {} (hashes of ice). To "
-      "look "
-      "at the improved model again: <code>floe diagnose {} --ice {}/improved-ice -o again</code></p>\n"
+      "look at the improved model again: <code>{}</code></p>\n"
       "</body></html>\n",
       markup_escaped(facts.command), facts.version, facts.seed, diagnosis.seconds, options.alpha,
-      100 * options.floor, facts.base_hash, facts.improved_hash, markup_escaped(facts.data),
-      markup_escaped(facts.folder));
+      100 * options.floor, facts.base_hash, facts.improved_hash, markup_escaped(facts.look_again));
   return text;
 }
 

@@ -10,7 +10,7 @@ namespace floe {
 struct ReportFacts {
   std::string data, ice, command, version;
   std::string base_hash, improved_hash;
-  std::string folder;  // of the result
+  std::string look_again;  // the command that diagnoses the improved model
   double flow_deg = 0;
   std::uint64_t seed = 1;
 };

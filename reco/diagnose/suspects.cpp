@@ -40,17 +40,21 @@ bool is_plain(const std::string& effect) {
 }
 
 // Why a parameter changes nothing, or nothing if it does change something: the scattering length of hole ice
-// does not where there is none.
+// does not where there is none. Steps that lead to no physical ice tell only if all do.
 std::optional<std::string> why_idle(const Model& model, const IceParameter& parameter) {
-  const double step =
-      parameter.scale * (parameter.start + 0.1 * parameter.scale > parameter.high ? -0.1 : 0.1);
-  try {
-    const Model moved = with_parameters(model, {parameter}, {parameter.start + step});
-    if (difference(model, moved) != ModelDifference{}) return std::nullopt;
-    return "it changes nothing in this model";
-  } catch (const std::exception& error) {
-    return error.what();  // it makes no sense in this model
+  std::string why;
+  for (const double share : {0.1, -0.1, 0.01, -0.01}) {
+    const double number = parameter.start + share * parameter.scale;
+    if (number < parameter.low || number > parameter.high) continue;
+    try {
+      const Model moved = with_parameters(model, {parameter}, {number});
+      if (difference(model, moved) != ModelDifference{}) return std::nullopt;
+      return "it changes nothing in this model";
+    } catch (const std::exception& error) {
+      if (why.empty()) why = error.what();  // it makes no sense in this model
+    }
   }
+  return why;
 }
 
 bool is_hidden_by_width(const std::string& effect, double oversize) {

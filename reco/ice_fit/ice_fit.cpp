@@ -115,15 +115,18 @@ class Fit {
     calibrate(kept), calibrate(others);
     const IceSolution solution =
         solve_ice(kept, fit_.parameters, fit_.numbers, {options_.smoothness, options_.amplitude}, any);
+    const Eigen::MatrixXd information = information_about_ice(others, static_cast<Eigen::Index>(count()));
     FitWithout fit;
-    fit.unknown = information_about_ice(others, static_cast<Eigen::Index>(count()))
-                      .cwiseProduct(solution.covariance)
-                      .sum();
     try {
       fit.numbers = stepped(solution.step);
     } catch (const InputError&) {
-      // The step leads to no physical ice.
+      return fit;  // the step leads to no physical ice
     }
+    Eigen::VectorXd change(information.rows());
+    for (std::size_t p = 0; p < count(); ++p)
+      change(static_cast<Eigen::Index>(p)) = (*fit.numbers)[p] - fit_.numbers[p];
+    fit.unknown =
+        std::min(information.cwiseProduct(solution.covariance).sum(), change.dot(information * change));
     return fit;
   }
 

@@ -82,8 +82,9 @@ IceFit fit_ice(const Model& base, const FlasherData& data, const std::vector<Ice
 // A fit to some of the runs.
 struct FitWithout {
   std::optional<std::vector<double>> numbers;  // none where its step leads to no physical ice
-  // By how much the deviance (-2 ln L) of the runs that were left out is larger at these numbers than at the
-  // true ones, on average: tr(F C), with F what those runs tell and C what the others leave uncertain.
+  // By how much the deviance (-2 ln L) of the runs that were left out is larger at these numbers because the
+  // others leave them uncertain: d^T F d, with F what those runs tell and d the change from the fit to all
+  // runs, and at most what it is on average, tr(F C), with C the covariance of the fit to the others.
   double unknown = 0;
 };
 

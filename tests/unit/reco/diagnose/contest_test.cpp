@@ -98,7 +98,6 @@ TEST_F(Contest, WhatBothCouldBeIsLostNarrowly) {
       candidates);
   EXPECT_EQ(candidates[0].trial.suspect.effect, "scattering-anisotropy");
   EXPECT_TRUE(lost_narrowly(candidates[1].trial));
-  EXPECT_FALSE(is_there_as_well(candidates[1].trial));
 }
 
 // Seen in trials: a late string, taken for one that has moved by a duel of 11.5 to 5.0. Three parameters add
@@ -147,19 +146,6 @@ TEST_F(Contest, WhoLostNarrowlyToABeatenLeaderIsNotTold) {
     const bool beaten_leader = candidates[loser].trial.suspect.effect == "scattering-anisotropy";
     EXPECT_EQ(lost_narrowly(candidates[loser].trial), !beaten_leader);
   }
-}
-
-// It is an alternative to the winner until it comes in itself.
-TEST_F(Contest, WhatIsNeededBesideTheWinnerIsThereAsWell) {
-  auto candidates = rivals(186);
-  hold_contest(
-      base_, noise_,
-      [](const auto&, const auto&) {
-        return fit_with({0.2, 0.2}, {0.05, 0.1});  // chi-squares 16 and 16
-      },
-      candidates);
-  EXPECT_TRUE(is_there_as_well(candidates[1].trial));
-  EXPECT_TRUE(lost_narrowly(candidates[1].trial));
 }
 
 TEST_F(Contest, WithoutACommonFitTheLikelihoodDecides) {
