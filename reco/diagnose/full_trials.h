@@ -48,8 +48,8 @@ struct FullTrial {
   std::vector<std::string> remarks;  // why names were given up
   double seconds = 0;
 
-  // The first name is right; of a pair the first two are, in any order; what is outside of the catalogue stays
-  // unexplained.
+  // The first name is right; of a pair the first two are, in any order; what is outside of the catalogue
+  // stays unexplained.
   bool right() const;
   // Whether the first name of a hidden effect is of a wrong place.
   bool elsewhere() const;
