@@ -26,7 +26,6 @@ constexpr std::uint64_t judge_stream = std::uint64_t{1} << 45,
 // Light of the gap's measurement, in units of that of fits: twice ln L of two simulations differs by tens
 // where they have hardly more light than the data.
 constexpr double light_of_gap = 2;
-constexpr double confirmed_share = 0.5;  // of a gap, that closes in runs which were held out
 
 void check_options(const DiagnosisOptions& options, int flashers) {
   check(static_cast<const RunSettings&>(options));
@@ -232,9 +231,10 @@ class Diagnoser {
   }
 
   void tell_why_unexplained(bool something_remains) {
+    constexpr double most = 0.5;  // of a gap
     std::vector<std::string>& why = result_.why_unexplained;
     if (something_remains) why.push_back("something remains that no effect of the catalogue explains");
-    if (result_.has_clear_gap() && result_.is_clear(result_.gap_after) && result_.closed() < confirmed_share)
+    if (result_.has_clear_gap() && result_.is_clear(result_.gap_after) && result_.closed() < most)
       why.push_back(result_.folds > 1 ? "runs that were held out do not confirm it"
                                       : "most of the gap stays");
     tell_of_too_many_alike(why);
@@ -296,7 +296,8 @@ class Diagnoser {
       result_.gaps.push_back({data_.runs[r].name, gaps.of_base().of_runs[r], 0});
     result_.gap_before = gaps.of_base().total();
     result_.gap_scatter = gaps.scatter_of_base();
-    result_.gap_of_floor = 2 * neg_llh_of_floor(data_, options_.floor);
+    const double of_floor = neg_llh_of_floor(data_, options_.floor);
+    result_.gap_of_floor = 2 * of_floor;
     take_gaps(gaps.of_base());
     if (!found_) return;
     while (!accepted_.empty()) {
@@ -323,9 +324,7 @@ class Diagnoser {
     if (result_.gap_unknown > gaps.noise_of_differences())
       result_.remarks.push_back(fmt::format(
           "What runs do not tell of others makes the gap after larger by {:.0f}", result_.gap_unknown));
-    result_.p_of_rest = accepted_.empty()
-                            ? gaps.p_of_base(neg_llh_of_floor(data_, options_.floor))
-                            : gaps.p_of(accepted_.model(), neg_llh_of_floor(data_, options_.floor));
+    result_.p_of_rest = accepted_.empty() ? gaps.p_of_base(of_floor) : gaps.p_of(accepted_.model(), of_floor);
   }
 
   // Where all that may be added leave a gap, each has taken a part of what none of them is, unless they close

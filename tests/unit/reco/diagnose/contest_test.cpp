@@ -148,6 +148,20 @@ TEST_F(Contest, WhoLostNarrowlyToABeatenLeaderIsNotTold) {
   }
 }
 
+// Each is needed beside the other by as much: neither stands for what both are.
+TEST_F(Contest, WhatIsNeededBesideTheWinnerIsLostNarrowly) {
+  auto candidates = rivals(186);
+  hold_contest(
+      base_, noise_,
+      [](const auto&, const auto&) {
+        return fit_with({0.2, 0.2}, {0.05, 0.1});  // chi-squares 16 and 16
+      },
+      candidates);
+  EXPECT_TRUE(lost_narrowly(candidates[1].trial));
+  ASSERT_TRUE(candidates[1].trial.lost);
+  EXPECT_NEAR(candidates[1].trial.lost->loser, 16, 1e-9);
+}
+
 TEST_F(Contest, WithoutACommonFitTheLikelihoodDecides) {
   auto candidates = rivals(186);
   hold_contest(
