@@ -60,9 +60,9 @@ class Trials {
                                         if (progress_) progress_(0.3 * fraction, "survey: " + text);
                                       });
     const std::vector<Suspect> suspects = suspects_of(survey, plan);
-    const ScoreTester tester(survey, suspects, plan.parameters, draws());
+    const ScoreTester tester(survey, suspects, plan.parameters, options_.calibration());
 
-    result_.power = seen_above(tester, base_, alpha_of_score(), options_.floor);
+    result_.power = seen_above(tester, base_, options_.alpha_of_each(), options_.floor);
     const std::vector<Hidden> hidden = plan_trials(tester);
     const std::vector<Full> full = plan_full(hidden, survey);
     seal(hidden, full);
@@ -106,11 +106,6 @@ class Trials {
     }
   }
 
-  // A diagnosis names what its scores say or what its fit does, each with half of the false alarms.
-  double alpha_of_score() const { return options_.alpha / 2; }
-
-  Draws draws() const { return {options_.draws, options_.seed, options_.threads}; }
-
   void report(double share_of_full, const std::string& text) const {
     if (progress_) progress_(0.3 + 0.7 * (done_ + share_of_full * per_full) / all_, text);
   }
@@ -139,7 +134,7 @@ class Trials {
     tell_shortage(options_.pairs, plan.size() - before_pairs, "two effects",
                   "were found that make physical ice together and are of two kinds");
     if (options_.outside == 0) return plan;
-    const ExpectedFit right = expected_fit(survey, draws());
+    const ExpectedFit right = expected_fit(survey, options_.calibration());
     std::vector<FlasherRun> flashers;
     for (const RunOfTrials& run : runs_) flashers.push_back(run.run);
     for (int t = 0; t < options_.outside; ++t)
@@ -198,11 +193,10 @@ class Trials {
     DiagnosisOptions options;
     LightBudget light = options.light;
     if (options_.full_least_hits) light.least_hits = *options_.full_least_hits;
-    static_cast<RunSettings&>(options) = options_;
+    static_cast<NamingOptions&>(options) = options_;
     options.light = light;
     // Another survey for each: an unlucky one would mislead them all.
     options.seed = options_.seed * 1000003 + number + 1;
-    options.alpha = options_.alpha, options.floor = options_.floor, options.draws = options_.draws;
     options.folds = std::min(options_.folds, flasher_count(data));
     return full_trial(base_, full.hidden, full.outside.has_value(), data, options,
                       [&](double fraction, const std::string& text) {
@@ -252,7 +246,7 @@ class Trials {
     BlindTrial trial;
     trial.hidden = hidden.effect;
     trial.p_value = test.p_value;
-    if (test.effects.empty() || test.p_value >= alpha_of_score()) return trial;
+    if (test.effects.empty() || test.p_value >= options_.alpha_of_each()) return trial;
     const EffectScore& first = test.effects.front();
     const Suspect& suspect = first.best.suspect;
     trial.named = {suspect.effect, text_of(suspect), suspect.place, {}};

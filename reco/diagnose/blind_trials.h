@@ -14,16 +14,16 @@
 
 #include "data/base/progress.h"
 #include "propagation/model.h"
+#include "reco/diagnose/diagnosis_options.h"
 #include "reco/diagnose/full_trials.h"
 #include "reco/diagnose/hidden_draws.h"
 #include "reco/diagnose/seen_above.h"
 #include "reco/diagnose/trial_light.h"
-#include "reco/ice_fit/run_plan.h"
 
 namespace floe {
 
-// Of RunSettings, `light` is that of the survey; whole diagnoses have their own.
-struct BlindTrialOptions : RunSettings {
+// `light` is that of the survey; whole diagnoses have their own. `folds` are theirs.
+struct BlindTrialOptions : NamingOptions {
   // All trials share the noise of one survey: with twice the data's light, an unlucky one named the same
   // layer in 11 of 100 trials with nothing missing.
   BlindTrialOptions() { light = {10, 1e3, 2e11}; }
@@ -34,11 +34,8 @@ struct BlindTrialOptions : RunSettings {
   int full_nothing = 0;  // whole diagnoses with nothing missing
   int pairs = 0;         // whole diagnoses of two effects hidden together
   int outside = 0;       // and of what the catalogue does not have (outside_effects.h)
-  int folds = 3;         // of whole diagnoses
   std::optional<double> full_least_hits = {};  // of theirs, LightBudget::least_hits
   SignificanceRange significance{5, 12};       // of what is hidden
-  double alpha = 0.01, floor = 0.005;
-  int draws = 300;
   // Of the survey (see PairPlan): it serves all trials, so that its slopes may be good.
   double pair_light = 0.4;
 };

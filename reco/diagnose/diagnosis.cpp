@@ -15,6 +15,7 @@
 #include "reco/diagnose/looks.h"
 #include "reco/diagnose/rivals.h"
 #include "reco/diagnose/stages.h"
+#include "reco/diagnose/unexplained.h"
 #include "reco/ice_fit/model_judge.h"
 
 namespace floe {
@@ -225,34 +226,9 @@ class Diagnoser {
     result_.effects = accepted_.effects();
     for (const NamedEffect& effect : result_.effects) result_.verdict.push_back(effect.suspect.effect);
     tell_apart_what_came_in();
-    if (!accepted_.empty()) tell_why_unexplained(unexplained);
+    if (!accepted_.empty()) result_.why_unexplained = why_unexplained(result_, unexplained);
     if (unexplained || !result_.why_unexplained.empty()) result_.verdict.push_back("unexplained");
     result_.beside_ice = accepted_.beside_ice();
-  }
-
-  void tell_why_unexplained(bool something_remains) {
-    constexpr double most = 0.5;  // of a gap
-    std::vector<std::string>& why = result_.why_unexplained;
-    if (something_remains) why.push_back("something remains that no effect of the catalogue explains");
-    if (result_.has_clear_gap() && result_.is_clear(result_.gap_after) && result_.closed() < most)
-      why.push_back(result_.folds > 1 ? "runs that were held out do not confirm it"
-                                      : "most of the gap stays");
-    tell_of_too_many_alike(why);
-  }
-
-  // Strings or modules do not go wrong by threes: what they have in common is more likely one thing, which
-  // the catalogue does not have.
-  void tell_of_too_many_alike(std::vector<std::string>& why) const {
-    constexpr std::ptrdiff_t too_many = 3;
-    std::set<std::string> names;
-    for (const NamedEffect& effect : accepted_.effects()) names.insert(effect.suspect.effect);
-    for (const std::string& name : names)
-      if (const auto places = std::ranges::count(
-              accepted_.effects(), name, [](const NamedEffect& effect) { return effect.suspect.effect; });
-          places >= too_many)
-        why.push_back(
-            fmt::format("{} at {} places at once is more likely one thing that the catalogue does not have",
-                        name, places));
   }
 
   void tell_what_was_not_tested() {
