@@ -87,15 +87,18 @@ const char* class_of(const FullTrial& trial) {
   return trial.hidden.front().effect.empty() ? "Nothing missing" : "One effect";
 }
 
+// Zero is added for what rounds to minus zero.
+std::string closed_of(const FullTrial& trial) {
+  return trial.closed ? fmt::format("{:.0f}%", std::round(100 * *trial.closed) + 0.0) : "hardly any gap";
+}
+
 std::string full_trials(const BlindTrials& trials) {
   if (trials.full.empty()) return "";
   TextTable table({"hidden for a whole diagnosis", "verdict", "gap closed", ""});
   std::map<std::string, Tally> classes;
   int elsewhere = 0, named = 0, values = 0, within = 0;
   for (const FullTrial& trial : trials.full) {
-    table.add({hidden_names(trial), verdict_of(trial),
-               trial.closed ? fmt::format("{:.0f}%", 100 * *trial.closed) : "hardly any gap",
-               outcome_of(trial)});
+    table.add({hidden_names(trial), verdict_of(trial), closed_of(trial), outcome_of(trial)});
     Tally& tally = classes[class_of(trial)];
     ++tally.trials, tally.right += trial.right();
     elsewhere += trial.right() && trial.elsewhere();
@@ -127,7 +130,7 @@ std::string confusion(const BlindTrials& trials) {
     if (effect == "nothing") continue;
     right += tally.right, hidden += tally.trials;
   }
-  std::string text = table.str();
+  std::string text = trials.trials.empty() ? "" : table.str();
   if (hidden > 0)
     text += fmt::format("Right name or group: {} of {} ({:.0f}%).\n", right, hidden, 100.0 * right / hidden);
   for (const auto& [effect, why] : trials.not_tried) text += fmt::format("{}: {}\n", effect, why);
