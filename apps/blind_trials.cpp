@@ -40,6 +40,21 @@ struct Tally {
   std::map<std::string, int> wrong;  // what was named instead
 };
 
+// How often fitted values are within two errors of what was hidden.
+class Coverage {
+ public:
+  void add(double found, double error, double hidden) {
+    ++values_;
+    within_ += std::abs(found - hidden) < 2 * error;
+  }
+  std::string text() const {
+    return values_ == 0 ? "" : fmt::format("Values within two errors: {} of {}.\n", within_, values_);
+  }
+
+ private:
+  int values_ = 0, within_ = 0;
+};
+
 std::map<std::string, Tally> tallies_of(const BlindTrials& trials) {
   std::map<std::string, Tally> tallies;
   for (const BlindTrial& trial : trials.trials) {
@@ -96,25 +111,22 @@ std::string full_trials(const BlindTrials& trials) {
   if (trials.full.empty()) return "";
   TextTable table({"hidden for a whole diagnosis", "verdict", "gap closed", ""});
   std::map<std::string, Tally> classes;
-  int elsewhere = 0, named = 0, values = 0, within = 0;
+  Coverage coverage;
+  int elsewhere = 0, named = 0;
   for (const FullTrial& trial : trials.full) {
     table.add({hidden_names(trial), verdict_of(trial), closed_of(trial), outcome_of(trial)});
     Tally& tally = classes[class_of(trial)];
     ++tally.trials, tally.right += trial.right();
     elsewhere += trial.right() && trial.elsewhere();
     named += trial.named_as_well();
-    for (const FullTrial::Value& value : trial.values) {
-      ++values;
-      within += std::abs(value.found - value.hidden) < 2 * value.error;
-    }
+    for (const FullTrial::Value& value : trial.values) coverage.add(value.found, value.error, value.hidden);
   }
   std::string text = table.str();
   for (const auto& [name, tally] : classes)
     text += fmt::format("{}: {} of {} right.\n", name, tally.right, tally.trials);
   text +=
       fmt::format("{} right ones at another place, {} unexplained but with a name, too.\n", elsewhere, named);
-  if (values > 0) text += fmt::format("Fitted values within two errors: {} of {}.\n", within, values);
-  return text;
+  return text + coverage.text();
 }
 
 std::string confusion(const BlindTrials& trials) {
@@ -164,15 +176,11 @@ std::string power(const BlindTrials& trials) {
   TextTable table({"would have been seen above", "change", "unit"});
   for (const SeenAbove& seen : trials.power)
     table.add({seen.parameter, fmt::format("{:.3g}", seen.change), seen.unit});
-  int values = 0, within = 0;
+  Coverage coverage;
   for (const BlindTrial& trial : trials.trials)
-    for (std::size_t i = 0; i < trial.found.size(); ++i) {
-      ++values;
-      within += std::abs(trial.found[i] - trial.hidden.values[i].second) < 2 * trial.errors[i];
-    }
-  std::string text = trials.power.empty() ? "" : table.str();
-  if (values > 0) text += fmt::format("Values within two errors: {} of {}.\n", within, values);
-  return text;
+    for (std::size_t i = 0; i < trial.found.size(); ++i)
+      coverage.add(trial.found[i], trial.errors[i], trial.hidden.values[i].second);
+  return (trials.power.empty() ? "" : table.str()) + coverage.text();
 }
 
 Json power_json(const BlindTrials& trials) {
