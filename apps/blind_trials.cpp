@@ -47,8 +47,8 @@ class Coverage {
     ++values_;
     within_ += std::abs(found - hidden) < 2 * error;
   }
-  std::string text() const {
-    return values_ == 0 ? "" : fmt::format("Values within two errors: {} of {}.\n", within_, values_);
+  std::string text(const char* values) const {
+    return values_ == 0 ? "" : fmt::format("{} within two errors: {} of {}.\n", values, within_, values_);
   }
 
  private:
@@ -126,7 +126,7 @@ std::string full_trials(const BlindTrials& trials) {
     text += fmt::format("{}: {} of {} right.\n", name, tally.right, tally.trials);
   text +=
       fmt::format("{} right ones at another place, {} unexplained but with a name, too.\n", elsewhere, named);
-  return text + coverage.text();
+  return text + coverage.text("Fitted values");
 }
 
 std::string confusion(const BlindTrials& trials) {
@@ -180,7 +180,7 @@ std::string power(const BlindTrials& trials) {
   for (const BlindTrial& trial : trials.trials)
     for (std::size_t i = 0; i < trial.found.size(); ++i)
       coverage.add(trial.found[i], trial.errors[i], trial.hidden.values[i].second);
-  return (trials.power.empty() ? "" : table.str()) + coverage.text();
+  return (trials.power.empty() ? "" : table.str()) + coverage.text("Values");
 }
 
 Json power_json(const BlindTrials& trials) {
