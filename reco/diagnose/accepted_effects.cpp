@@ -57,11 +57,16 @@ std::vector<IceParameter> AcceptedEffects::parameters_by_layers(std::size_t effe
   // Of ln(strength): grains change slowly with depth. In SpiceBFR v2 layers of 110 m that follow one another
   // differ by 0.2 (rms), which is within the smoothness prior of half of this.
   constexpr double large = 0.5;
+  // Of what is common to all of them. It was fitted with one strength for all, perhaps while something else
+  // was missing, and six priors of half of a factor e about it would hold it there more firmly than light
+  // does.
+  constexpr double any_mean = 2;
   const std::size_t at = first_parameter(effect);
   std::vector<IceParameter> layers = layer_parameters(family, range);
   for (IceParameter& layer : layers) {
     layer.start = std::log(std::max(least, numbers_[at]));
     layer.scale = large;
+    layer.prior = any_mean;
   }
   std::vector<IceParameter> all = parameters();
   const auto place = all.erase(all.begin() + static_cast<std::ptrdiff_t>(at));

@@ -6,12 +6,14 @@
 #include <chrono>
 #include <iterator>
 #include <set>
+#include <utility>
 
 #include "data/base/error.h"
 #include "propagation/effects/effect.h"
 #include "reco/diagnose/effect_fits.h"
 #include "reco/diagnose/goodness.h"
 #include "reco/diagnose/leading_suspects.h"
+#include "reco/diagnose/light_by_runs.h"
 #include "reco/diagnose/looks.h"
 #include "reco/diagnose/rivals.h"
 #include "reco/diagnose/stages.h"
@@ -24,9 +26,9 @@ namespace {
 
 constexpr std::uint64_t judge_stream = std::uint64_t{1} << 45,
                         gap_stream = judge_stream + (std::uint64_t{1} << 40);
-// Light of the gap's measurement, in units of that of fits: twice ln L of two simulations differs by tens
-// where they have hardly more light than the data.
-constexpr double light_of_gap = 2;
+// Light of the gap's measurement, in units of that of fits, see light_by_runs.h: twice ln L of two
+// simulations differs by tens where they have hardly more light than the data.
+constexpr double light_of_gap = 1.2, most_light_of_gap = 2;
 
 void check_options(const DiagnosisOptions& options, int flashers) {
   check(static_cast<const RunSettings&>(options));
@@ -62,6 +64,7 @@ class Diagnoser {
       }
       const bool gap = now.shows_gap(options_);
       if (gap && add_effect(now, step)) continue;
+      if (refine_what_waits()) continue;
       // Scores are valid whatever the slopes are: where no fit confirms the name, there is a gap without one.
       // Beside names they see what noise the fits of these have left.
       unexplained = step == 0 ? gap : now.p_of_fit < options_.alpha_of_each();
@@ -146,25 +149,38 @@ class Diagnoser {
     found_ = true;
     now.added = accepted_.effects().size() - 1;
     retest();
-    // What else is missing hides what layers differ in: asked again with every effect that comes in.
+    layers_wait_ = true;
+    // What else is missing hides what layers differ in, or is taken for it: asked again with every effect
+    // that comes in, once none is known to be missing.
+    const auto waits_for_a_look = [&](const EffectScore& effect) {
+      return !accepted_.has(effect.best.suspect) && waits(effect, now.scores.effects.front());
+    };
+    if (std::ranges::none_of(now.scores.effects, waits_for_a_look)) refine_what_waits();
+  }
+
+  // Whether that has changed anything.
+  bool refine_what_waits() {
+    if (!std::exchange(layers_wait_, false)) return false;
     for (std::size_t e = 0; e < accepted_.effects().size(); ++e)
       if (accepted_.effects()[e].suspect.effect == "birefringence" && !accepted_.effects()[e].mean)
-        refine_by_layers(e);
+        return refine_by_layers(e);
+    return false;
   }
 
   // Grains differ from layer to layer, and with them the strength of birefringence (arXiv:2107.08692).
-  void refine_by_layers(std::size_t birefringence) {
+  bool refine_by_layers(std::size_t birefringence) {
     const DepthRange range = layers_of(flasher_depths(data_, *base_.detector), flasher_count(data_));
-    if (range.groups < 2) return;
+    if (range.groups < 2) return false;
     stages_.begin(stages_.from(), stages_.to(), "fitting birefringence layer by layer");
     try {
       const IceFit layered =
           fits_.fit_layers(accepted_.parameters_by_layers(birefringence, LayerFamily::birefringence, range));
       const double least_spread = 2 * (range.groups - 1);
-      if (accepted_.spread_of_layers(birefringence, layered) >= least_spread)
-        accepted_.take_layers(birefringence, layered);
+      if (accepted_.spread_of_layers(birefringence, layered) < least_spread) return false;
+      accepted_.take_layers(birefringence, layered);
+      return true;
     } catch (const Error&) {
-      // Some layer scatters too little for so strong crystals: one strength for all stays.
+      return false;  // some layer scatters too little for so strong crystals: one strength for all stays
     }
   }
 
@@ -265,7 +281,10 @@ class Diagnoser {
   void measure_gaps(bool gap_stays) {
     constexpr double too_much = 2;
     RunSettings settings = options_;
-    if (found_) settings.light.light *= light_of_gap, settings.light.least_hits *= light_of_gap;
+    if (found_) {
+      const double light = light_by_runs(data_.runs.size(), light_of_gap, most_light_of_gap);
+      settings.light.light *= light, settings.light.least_hits *= light;
+    }
     result_.folds = std::min(options_.folds, flasher_count(data_));
     HeldOutGaps gaps(base_, data_, looks_.first_look(), settings, gap_stream, result_.folds, fits_);
     for (std::size_t r = 0; r < data_.runs.size(); ++r)
@@ -359,7 +378,8 @@ class Diagnoser {
   std::optional<ModelJudge> judge_;  // of the runs that the first look has left
   EffectFits fits_;
   AcceptedEffects accepted_;
-  bool found_ = false;  // anything, even if it was given up again
+  bool layers_wait_ = false;  // to be asked for, since an effect came in
+  bool found_ = false;        // anything, even if it was given up again
   Diagnosis result_;
 };
 

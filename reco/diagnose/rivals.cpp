@@ -4,8 +4,14 @@
 
 namespace floe {
 
+namespace {
+
+constexpr double leading_share = 0.35;  // of the first's gain
+
+}  // namespace
+
 bool leads(const EffectScore& effect, const EffectScore& first) {
-  constexpr double leading_share = 0.35, least_gain = 5;
+  constexpr double least_gain = 5;
   constexpr double by_chance = 0.01;  // for all its places
   return effect.best.gain >= leading_share * first.best.gain && effect.best.gain > least_gain &&
          effect.ln_p < std::log(by_chance);
@@ -16,6 +22,11 @@ bool is_alternative(const EffectScore& effect, const EffectScore& first, double 
   const double explained = effect.likeness * effect.likeness, share = effect.best.gain / first.best.gain;
   const bool leaves_enough = gained * (1 - explained) <= left * explained;
   return is_inseparable(effect, first) || share >= nearly || (share >= least && leaves_enough);
+}
+
+bool waits(const EffectScore& effect, const EffectScore& first) {
+  const double explained = effect.likeness * effect.likeness * first.best.gain;
+  return leads(effect, first) && effect.best.gain - explained >= leading_share * first.best.gain;
 }
 
 bool is_inseparable(const EffectScore& effect, const EffectScore& first) {

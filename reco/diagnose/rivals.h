@@ -19,4 +19,8 @@ bool is_alternative(const EffectScore& effect, const EffectScore& first, double 
 // and it gains half as much, or much of it and both may well be what is missing.
 bool is_inseparable(const EffectScore& effect, const EffectScore& first);
 
+// Whether the first in the ranking, if true, leaves it as much as leads: what it cannot imitate is for a look
+// of its own.
+bool waits(const EffectScore& effect, const EffectScore& first);
+
 }  // namespace floe

@@ -14,6 +14,7 @@
 #include "reco/ice_fit/ice_point.h"
 #include "reco/ice_fit/ice_solution.h"
 #include "reco/ice_fit/receiver_efficiencies.h"
+#include "reco/ice_fit/round_memory.h"
 #include "reco/ice_fit/run_scores.h"
 #include "reco/ice_fit/score_system.h"
 
@@ -25,6 +26,7 @@ constexpr double longest_step = 0.7;  // of a round, in the parameter's scale
 // Two steps so small, in their errors, are the last: root mean square and largest. New simulations in every
 // round keep them from getting much smaller; one step alone may be small by chance, on its way.
 constexpr double settled = 0.8, settled_most = 2.5;
+constexpr double linear = 4;  // of a step, in errors: scores change in proportion to it
 
 void check(const IceFitOptions& options) {
   check(static_cast<const RunSettings&>(options));
@@ -33,7 +35,7 @@ void check(const IceFitOptions& options) {
   if (!(options.efficiency_width >= 0 && options.efficiency_width <= 1))
     throw UsageError("the width of efficiencies must be from 0 to 1");
   if (!(options.pair_light > 0)) throw UsageError("pairs of simulations need light");
-  if (!(options.first_light > 0)) throw UsageError("the first round needs light");
+  if (!(options.first_light > 0 && options.later_light > 0)) throw UsageError("rounds need light");
   if (options.most_rounds < 1) throw UsageError("a fit needs at least one round");
 }
 
@@ -139,6 +141,8 @@ class Fit {
       report(r, "walking in the light of");
       scores_.add(point, r, count(), efficiencies, system);
     }
+    // The first round is far from where the others are.
+    if (options_.remembers && round_ > 1) system = memory_.with(system);
     calibrate(system);
     const ProfiledSystem profiled =
         profile_efficiencies(system, efficiencies.count(), options_.efficiency_width);
@@ -147,15 +151,28 @@ class Fit {
     note_efficiencies(efficiencies, profiled, solution.step);
     const std::vector<double> before = std::exchange(fit_.numbers, stepped(solution.step));
     scores_.step_nuisances(solution.step, count());
+    const StepSize size = size_of(solution);
+    remember(before, solution.step, size);
     fit_.covariance = solution.covariance;
     fit_.light_errors = solution.light_errors;
     fit_.rounds = round_;
-    const bool small = size_of(solution).is_small();
-    fit_.converged = small && small_before_;
-    small_before_ = small;
+    if (options_.remembers) return;  // steps get small whether or not they have arrived
+    fit_.converged = size.is_small() && small_before_;
+    small_before_ = size.is_small();
     // Where they end differs by the noise of their simulations alone: the middle has less of it.
     if (fit_.converged)
       for (std::size_t p = 0; p < count(); ++p) fit_.numbers[p] = (before[p] + fit_.numbers[p]) / 2;
+  }
+
+  // By how much the fit has gone on: parameters as far as they went, nuisances all of the step.
+  void remember(const std::vector<double>& before, Eigen::VectorXd step, const StepSize& size) {
+    if (size.furthest > linear) {
+      memory_.forget();
+      return;
+    }
+    for (std::size_t p = 0; p < count(); ++p)
+      step(static_cast<Eigen::Index>(p)) = fit_.numbers[p] - before[p];
+    memory_.move(step);
   }
 
   // As much of a step as leads to ice that can be: crystals must not scatter more than their layer does.
@@ -233,6 +250,7 @@ class Fit {
   RunScores scores_;
   int round_ = 0;
   bool small_before_ = false;  // whether the step of the round before was
+  RoundMemory memory_;
   IceFit fit_;
 };
 

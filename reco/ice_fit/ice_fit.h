@@ -29,8 +29,12 @@ struct IceFitOptions : RunSettings {
   // Of the simulations of slopes that weights of paths cannot give, in units of a run's own.
   double pair_light = 1;
   double least_pair_hits = 0;  // see PairPlan
-  // Of the first round, in units of a later one's: it only leads near to where the others go on.
-  double first_light = 1;
+  // Of the first round, which only leads near to where the others go on, and of each later one, in units of
+  // `light`.
+  double first_light = 1, later_light = 1;
+  // Rounds after the first are solved together with those before, moved to where the fit is; each adds its
+  // light, and none is the last but `most_rounds`.
+  bool remembers = false;
   int most_rounds = 6;
   // Asked about the fit so far, from the second round on: whether what it was wanted for is settled. Empty:
   // it goes on until it has converged.

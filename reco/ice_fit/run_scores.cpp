@@ -70,7 +70,7 @@ void RunScores::add(const IcePoint& point, std::size_t r, std::size_t parameters
                     const EfficiencyColumns& efficiencies, ScoreSystem& system) {
   const RunData& run = data_.runs[r];
   State& state = states_[r];
-  const double photons = (round_ == 1 ? options_.first_light : 1) * photons_of(r);
+  const double photons = (round_ == 1 ? options_.first_light : options_.later_light) * photons_of(r);
   const RunBins& bins = state.bins;
   const RunRequest request = this->request(r, 2, photons);
   const SimulatedRun simulated = simulate(point.model(), request, state.time_zero);

@@ -35,9 +35,10 @@ Eigen::MatrixXd own_slopes(const LightFold& fold, const RunColumns& columns) {
 // Weights in these columns, by a symmetric matrix. Rows of the slope are weights, its columns are not.
 void shrink(const std::vector<Eigen::Index>& columns, const Eigen::MatrixXd& shares, ScoreSystem& system) {
   system.gap(columns) = (shares * system.gap(columns)).eval();
-  for (Eigen::MatrixXd* matrix : {&system.slope, &system.information, &system.noise})
+  for (Eigen::MatrixXd* matrix :
+       {&system.slope, &system.information, &system.noise, &system.simulation_noise})
     (*matrix)(columns, Eigen::all) = (shares * (*matrix)(columns, Eigen::all)).eval();
-  for (Eigen::MatrixXd* matrix : {&system.information, &system.noise})
+  for (Eigen::MatrixXd* matrix : {&system.information, &system.noise, &system.simulation_noise})
     (*matrix)(Eigen::all, columns) = ((*matrix)(Eigen::all, columns) * shares).eval();
 }
 
@@ -48,6 +49,7 @@ ScoreSystem& ScoreSystem::operator+=(const ScoreSystem& other) {
   slope += other.slope;
   information += other.information;
   noise += other.noise;
+  simulation_noise += other.simulation_noise;
   return *this;
 }
 
@@ -81,6 +83,7 @@ void add_run(const RunLight& light, const RunLight& seen, const RunCounts& count
     information += weight[fold].transpose() * light_of_bins * weight[fold] / 2;
     add_noise(weight[fold] / 2, counts.dispersion * counts.scale * expected[other]);
   }
+  const Eigen::MatrixXd simulation_noise = noise;
   add_noise((weight[0] + weight[1]) / 2, counts.data_dispersion * mu + known * mu.square());
 
   // Into the system: the ice's columns, then the run's own.
@@ -95,6 +98,7 @@ void add_run(const RunLight& light, const RunLight& seen, const RunCounts& count
       system.slope(place(i), place(k)) += slope(i, k);
       system.information(place(i), place(k)) += (information(i, k) + information(k, i)) / 2;
       system.noise(place(i), place(k)) += noise(i, k);
+      system.simulation_noise(place(i), place(k)) += simulation_noise(i, k);
     }
   }
 }

@@ -14,16 +14,17 @@ namespace floe {
 //   gap         = sum_bins w (d - mu)             0 on average at the true parameters, whatever the weights
 //   slope       = sum_bins w d mu/d parameters    how fast it closes, from the slopes as they are: noisy
 //   information = sum_bins w mu w                 the same on average, if w is what the slopes probably are
-//   noise       = covariance of the gap: Poisson noise of data and simulation.
+//   noise       = covariance of the gap: Poisson noise of data and simulation, and of the simulation alone.
 // The best weights are d ln mu/d parameters, for which the last three are the Fisher information.
 struct ScoreSystem {
   explicit ScoreSystem(int size)
       : gap(Eigen::VectorXd::Zero(size)),
         slope(Eigen::MatrixXd::Zero(size, size)),
         information(Eigen::MatrixXd::Zero(size, size)),
-        noise(Eigen::MatrixXd::Zero(size, size)) {}
+        noise(Eigen::MatrixXd::Zero(size, size)),
+        simulation_noise(Eigen::MatrixXd::Zero(size, size)) {}
   Eigen::VectorXd gap;
-  Eigen::MatrixXd slope, information, noise;
+  Eigen::MatrixXd slope, information, noise, simulation_noise;
 
   // Of other runs, with the same columns.
   ScoreSystem& operator+=(const ScoreSystem& other);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "reco/diagnose/score_test.h"
+#include "reco/ice_fit/ice_solution.h"
 
 namespace floe::test {
 namespace {
@@ -117,6 +118,19 @@ TEST_F(Accepted, AreRefinedByLayersWhateverCameLater) {
   EXPECT_EQ(accepted_.effects()[1].values, (std::vector<double>{600}));
   accepted_.drop(0);
   EXPECT_EQ(accepted_.parameter_count(), 1u);
+}
+
+// The strength that layers start from was fitted while something else was missing: six of them, each known to
+// 40% and all by 50% above it, are not held there by their priors.
+TEST_F(Accepted, LayersAreNotHeldAtTheStrengthTheyStartFrom) {
+  const double start = std::log(1.1), truth = std::log(1.65), error = 0.4;
+  add("birefringence", "strength", {std::exp(start)}, {0.1});
+  const auto layers = accepted_.parameters_by_layers(0, LayerFamily::birefringence, {1700, 2300, 6});
+  ScoreSystem light(6);
+  light.information = light.noise = light.slope = Eigen::MatrixXd::Identity(6, 6) / (error * error);
+  light.gap = Eigen::VectorXd::Constant(6, (truth - start) / (error * error));
+  const IceSolution solution = solve_ice(light, layers, std::vector<double>(6, start), {}, 10);
+  for (Eigen::Index i = 0; i < 6; ++i) EXPECT_NEAR(start + solution.step(i), truth, 0.05 * truth) << i;
 }
 
 // Layers that differ both ways about the base's strength are no base of that strength.

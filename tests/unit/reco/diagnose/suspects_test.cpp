@@ -64,6 +64,15 @@ TEST(Rivals, AreAlternativesWhereTheLeaderMayHaveLeftWhatTheyWould) {
   EXPECT_TRUE(is_alternative(score(0.92, -8, 16), first, 1e4, 1));    // inseparable until fits decide
 }
 
+// The leader, of a gain of 28, explains the square of the likeness of it.
+TEST(Rivals, WaitWhereTheLeaderLeavesThemEnoughToLead) {
+  const EffectScore first = score(1, -20, 28);
+  EXPECT_FALSE(waits(first, first));
+  EXPECT_TRUE(waits(score(0.5, -8, 17), first));  // 7 are explained, and 10 lead
+  EXPECT_FALSE(waits(score(0.5, -8, 16), first));
+  EXPECT_FALSE(waits(score(0.5, -4, 17), first));  // by chance
+}
+
 // Also of one that is better than any that differs by the floor only.
 TEST(Probabilities, OfAnExpectedFitAreLarge) {
   const ExpectedFit right{100, 10};
