@@ -19,7 +19,7 @@ class Diagnose : public ::testing::Test {
   void simulate(const std::string& options, const std::string& more_runs = "") const {
     write_bytes(
         folder_.path() / "runs.toml",
-        "[defaults]\nphotons = 4e8\n[[run]]\nmodule = [36, 20]\n[[run]]\nmodule = [45, 40]\n" + more_runs);
+        "[defaults]\nphotons = 2.5e8\n[[run]]\nmodule = [36, 20]\n[[run]]\nmodule = [45, 40]\n" + more_runs);
     const Outcome outcome =
         floe("simulate --flashers runs.toml --oversize 16 --seed 5 --quiet -o runs.h5 " + options);
     ASSERT_EQ(outcome.code, 0) << outcome.err;
