@@ -281,10 +281,7 @@ class Diagnoser {
   void measure_gaps(bool gap_stays) {
     constexpr double too_much = 2;
     RunSettings settings = options_;
-    if (found_) {
-      const double light = light_by_runs(data_.runs.size(), light_of_gap, most_light_of_gap);
-      settings.light.light *= light, settings.light.least_hits *= light;
-    }
+    if (found_) settings.light *= light_by_runs(data_.runs.size(), light_of_gap, most_light_of_gap);
     result_.folds = std::min(options_.folds, flasher_count(data_));
     HeldOutGaps gaps(base_, data_, looks_.first_look(), settings, gap_stream, result_.folds, fits_);
     for (std::size_t r = 0; r < data_.runs.size(); ++r)

@@ -28,13 +28,15 @@ double brightest_run(const FlasherData& data) {
 }  // namespace
 
 IceFit EffectFits::fit(const std::vector<IceParameter>& parameters, const Settled& settled) const {
-  return fit(parameters, rounds_of_fits, settled);
+  IceFitOptions asked = options(rounds_of_fits);
+  asked.settled = settled;
+  return fit(parameters, asked);
 }
 
 IceFit EffectFits::fit_layers(const std::vector<IceParameter>& parameters) const {
   IceFitOptions asked = options(rounds_of_layers);
   asked.later_light = 1, asked.remembers = true;
-  return fit_ice(base_, data_, parameters, asked, stages_.part());
+  return fit(parameters, asked);
 }
 
 // The first round and slopes from pairs have enough light.
@@ -42,7 +44,7 @@ std::vector<FitWithout> EffectFits::fit_without(const std::vector<std::vector<ch
                                                 const std::vector<IceParameter>& parameters) const {
   IceFitOptions asked = options(1);
   const double light = light_by_runs(data_.runs.size(), light_of_folds, most_light_of_folds);
-  asked.light.light *= light, asked.light.least_hits *= light;
+  asked.light *= light;
   asked.pair_light /= light, asked.first_light /= light, asked.later_light = 1;
   return fit_ice_without(base_, data_, parameters, left_out, asked, stages_.part());
 }
@@ -52,7 +54,7 @@ IceFit EffectFits::fit_rivals(const std::vector<IceParameter>& parameters, const
   asked.settled = settled;
   asked.light.least_hits =
       std::max(asked.light.least_hits, std::min(hits_of_rivals, light_of_rivals * brightest_run(data_)));
-  return fit_ice(base_, data_, parameters, asked, stages_.part());
+  return fit(parameters, asked);
 }
 
 IceFitOptions EffectFits::options(int rounds) const {
@@ -68,10 +70,7 @@ IceFitOptions EffectFits::options(int rounds) const {
   return asked;
 }
 
-IceFit EffectFits::fit(const std::vector<IceParameter>& parameters, int rounds,
-                       const Settled& settled) const {
-  IceFitOptions asked = options(rounds);
-  asked.settled = settled;
+IceFit EffectFits::fit(const std::vector<IceParameter>& parameters, const IceFitOptions& asked) const {
   return fit_ice(base_, data_, parameters, asked, stages_.part());
 }
 

@@ -35,7 +35,7 @@ class EffectFits {
 
  private:
   IceFitOptions options(int rounds) const;
-  IceFit fit(const std::vector<IceParameter>& parameters, int rounds, const Settled& settled) const;
+  IceFit fit(const std::vector<IceParameter>& parameters, const IceFitOptions& asked) const;
 
   const Model& base_;
   const FlasherData& data_;

@@ -13,7 +13,7 @@ namespace floe {
 namespace {
 
 constexpr std::uint64_t look_stream = std::uint64_t{1} << 44;
-constexpr double light_of_pairs = 0.12, most_light_of_pairs = 0.25;  // see SurveyPlan and light_by_runs.h
+constexpr double light_of_pairs = 0.12;  // for six runs, see light_by_runs.h; up to SurveyPlan's
 
 // Of all that may become a group.
 std::vector<Separation> separations_of(const Survey& survey, const std::vector<Axis>& axes,
@@ -57,7 +57,7 @@ DiagnosisStep Looks::look_at(const Model& model, int step) {
       plan_suspects(model, flasher_depths(data_, *model.detector), flasher_count(data_), options_.oversize);
   SurveyPlan survey_plan{.parameters = plan.parameters};
   survey_plan.stream = static_cast<std::uint64_t>(step);
-  survey_plan.pair_light = light_by_runs(data_.runs.size(), light_of_pairs, most_light_of_pairs);
+  survey_plan.pair_light = light_by_runs(data_.runs.size(), light_of_pairs, survey_plan.pair_light);
   const Survey survey = survey_data(model, data_, first_, survey_plan, settings(), stages_.part());
   if (survey.bins == 0)
     throw NoResult("not enough light: no receiver of any flasher run sees enough to be compared");

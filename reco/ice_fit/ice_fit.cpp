@@ -152,11 +152,13 @@ class Fit {
     const std::vector<double> before = std::exchange(fit_.numbers, stepped(solution.step));
     scores_.step_nuisances(solution.step, count());
     const StepSize size = size_of(solution);
-    remember(before, solution.step, size);
     fit_.covariance = solution.covariance;
     fit_.light_errors = solution.light_errors;
     fit_.rounds = round_;
-    if (options_.remembers) return;  // steps get small whether or not they have arrived
+    if (options_.remembers) {
+      remember(before, solution.step, size);
+      return;  // its steps get small whether or not they have arrived
+    }
     fit_.converged = size.is_small() && small_before_;
     small_before_ = size.is_small();
     // Where they end differs by the noise of their simulations alone: the middle has less of it.

@@ -3,13 +3,11 @@
 namespace floe {
 
 ScoreSystem RoundMemory::with(const ScoreSystem& system) {
-  if (sum_) {
+  if (sum_)
     *sum_ += system;
-    ++rounds_;
-  } else {
-    sum_ = system;
-    rounds_ = 1;
-  }
+  else
+    sum_ = system, rounds_ = 0;
+  ++rounds_;
   ScoreSystem mean = *sum_;
   const double share = 1.0 / rounds_;
   mean.gap *= share, mean.slope *= share, mean.information *= share, mean.noise *= share;

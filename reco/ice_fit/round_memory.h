@@ -19,7 +19,7 @@ class RoundMemory {
 
  private:
   std::optional<ScoreSystem> sum_;
-  int rounds_ = 0;
+  int rounds_ = 0;  // in the sum
 };
 
 }  // namespace floe

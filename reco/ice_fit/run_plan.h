@@ -36,6 +36,12 @@ struct LightBudget {
   double light = 5;            // simulated light, in units of the data's, at least
   double least_hits = 3e4;     // simulated hits of a run, at least
   double most_photons = 2e11;  // N of a run's simulation, at most
+
+  // So many times the light, and at least so many times the hits.
+  LightBudget& operator*=(double times) {
+    light *= times, least_hits *= times;
+    return *this;
+  }
 };
 
 // How runs are simulated and compared with the data.

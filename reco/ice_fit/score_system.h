@@ -14,8 +14,9 @@ namespace floe {
 //   gap         = sum_bins w (d - mu)             0 on average at the true parameters, whatever the weights
 //   slope       = sum_bins w d mu/d parameters    how fast it closes, from the slopes as they are: noisy
 //   information = sum_bins w mu w                 the same on average, if w is what the slopes probably are
-//   noise       = covariance of the gap: Poisson noise of data and simulation, and of the simulation alone.
-// The best weights are d ln mu/d parameters, for which the last three are the Fisher information.
+//   noise       = covariance of the gap: Poisson noise of data and simulation.
+// The best weights are d ln mu/d parameters, for which the last three are the Fisher information. The part of
+// the noise that is the simulation's alone is kept beside it.
 struct ScoreSystem {
   explicit ScoreSystem(int size)
       : gap(Eigen::VectorXd::Zero(size)),
