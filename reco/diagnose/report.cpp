@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <map>
 #include <optional>
 #include <utility>
 
-#include "data/module_id.h"
+#include "reco/diagnose/residual_pictures.h"
 #include "reco/figures/svg.h"
 
 namespace floe {
@@ -46,124 +44,6 @@ const ResidualProfile* profile_of(const DiagnosisStep& step, const std::string& 
   return found == step.where.profiles.end() ? nullptr : &*found;
 }
 
-// Points with errors, before (red) and after (blue), against one axis.
-class ProfilePlot {
- public:
-  // `marked`: a place on the axis that has a name.
-  ProfilePlot(const ResidualProfile& before, const ResidualProfile* after,
-              const std::optional<std::pair<double, std::string>>& marked)
-      : svg_(width, height) {
-    low_ = before.low.front(), high_ = before.high.back();
-    if (high_ == low_) high_ = low_ + 1;
-    reach_ = 0.05;
-    for (const ResidualProfile* p : {&before, after})
-      for (std::size_t i = 0; p && i < p->low.size(); ++i)
-        if (p->error[i] > 0 && p->error[i] < 0.1)
-          reach_ = std::max(reach_, std::abs(p->relative[i]) + p->error[i]);
-    reach_ = std::min(reach_ * 1.1, 1.0);
-    frame(before);
-    if (marked) mark(*marked);
-    draw(before, "#c0392b", -1.5);
-    if (after) draw(*after, "#2166ac", 1.5);
-  }
-  std::string str() const { return svg_.str(); }
-
- private:
-  static constexpr double width = 380, height = 230, left = 56, right = 12, top = 26, bottom = 42;
-
-  double x(double value) const { return left + (value - low_) / (high_ - low_) * (width - left - right); }
-  double y(double value) const { return top + (reach_ - value) / (2 * reach_) * (height - top - bottom); }
-
-  void frame(const ResidualProfile& p) {
-    svg_.rectangle({0, 0}, width, height, "#ffffff");
-    svg_.text({left, 16}, "Data above the model, by " + p.axis, 12, Anchor::start, "#222222", true);
-    for (const double tick : round_ticks(low_, high_, 6)) {
-      svg_.line({x(tick), height - bottom}, {x(tick), height - bottom + 4}, {"#444444", 1, ""});
-      svg_.text({x(tick), height - bottom + 16}, fmt::format("{:g}", tick), 11, Anchor::middle);
-    }
-    for (const double tick : round_ticks(-reach_, reach_, 5)) {
-      svg_.line({left, y(tick)}, {width - right, y(tick)}, {tick == 0 ? "#888888" : "#e4e4e4", 1, ""});
-      svg_.text({left - 6, y(tick) + 4}, fmt::format("{:g}%", 100 * tick), 11, Anchor::end);
-    }
-    svg_.text({(left + width - right) / 2, height - 8}, fmt::format("{} [{}]", p.axis, p.unit), 11,
-              Anchor::middle);
-  }
-
-  void mark(const std::pair<double, std::string>& place) {
-    const double at = x(place.first);
-    svg_.line({at, top}, {at, height - bottom}, {"#888888", 1, "4 3"});
-    svg_.text({at + 4, top + 10}, place.second, 11, Anchor::start, "#666666");
-  }
-
-  // What is beyond the frame has an arrow at its edge.
-  void draw(const ResidualProfile& p, const std::string& colour, double shift) {
-    for (std::size_t i = 0; i < p.low.size(); ++i) {
-      if (!(p.error[i] > 0) || p.error[i] > reach_) continue;
-      const double at = x((p.low[i] + p.high[i]) / 2) + shift;
-      const auto inside = [&](double value) { return y(std::clamp(value, -reach_, reach_)); };
-      svg_.line({at, inside(p.relative[i] - p.error[i])}, {at, inside(p.relative[i] + p.error[i])},
-                {colour, 1.2, ""});
-      if (std::abs(p.relative[i]) <= reach_)
-        svg_.circle({at, inside(p.relative[i])}, 2.6, colour);
-      else
-        svg_.text({at, p.relative[i] > 0 ? top + 10 : height - bottom - 2}, p.relative[i] > 0 ? "▲" : "▼", 10,
-                  Anchor::middle, colour);
-    }
-  }
-
-  Svg svg_;
-  double low_ = 0, high_ = 1, reach_ = 0.1;
-};
-
-// Every module that saw light enough, by string and number: how many standard deviations the data are above
-// (red) or below (blue) the model.
-class ModuleMap {
- public:
-  ModuleMap(const ResidualProfile& modules, const std::string& title) {
-    std::map<int, double> column_of;  // by string
-    std::vector<ModuleId> ids;
-    for (const std::string& name : modules.names) {
-      ModuleId id;
-      if (std::sscanf(name.c_str(), "%d,%d", &id.string, &id.dom) == 2) column_of[id.string] = 0;
-      ids.push_back(id);
-    }
-    const double cell = std::clamp(width / std::max<double>(1, double(column_of.size())), 1.0, 12.0);
-    double next = left;
-    for (auto& [string, at] : column_of) at = next, next += cell;
-    svg_ = Svg(left + width + 10, top + rows * row + 30);
-    svg_.rectangle({0, 0}, left + width + 10, top + rows * row + 30, "#ffffff");
-    svg_.text({left, 16}, title, 12, Anchor::start, "#222222", true);
-    svg_.rectangle({left, top}, next - left, rows * row, "#f4f4f4");
-    for (std::size_t i = 0; i < ids.size(); ++i)
-      if (modules.error[i] > 0)
-        svg_.rectangle({column_of[ids[i].string], top + (ids[i].dom - 1) * row}, cell, row,
-                       colour_of(modules.relative[i] / modules.error[i]));
-    for (const int dom : {1, 20, 40, 60})
-      svg_.text({left - 5, top + (dom - 0.5) * row + 4}, fmt::format("{}", dom), 11, Anchor::end);
-    const int every = std::max(1, static_cast<int>(std::ceil(22 / cell)));
-    int count = 0;
-    for (const auto& [string, at] : column_of)
-      if (count++ % every == 0)
-        svg_.text({at + cell / 2, top + rows * row + 13}, fmt::format("{}", string), 10, Anchor::middle);
-    svg_.text({left, top + rows * row + 26}, "string; DOM number downwards", 11);
-  }
-  std::string str() const { return svg_.str(); }
-
- private:
-  static constexpr double width = 480, left = 30, top = 26, row = 4;
-  static constexpr int rows = 60;
-
-  static std::string colour_of(double sigmas) {
-    constexpr double full = 4;
-    const double share = std::clamp(sigmas / full, -1.0, 1.0);
-    const int pale = static_cast<int>(std::lround(235 * (1 - std::abs(share))));
-    return share > 0 ? fmt::format("#c8{:02x}{:02x}", pale, pale)
-                     : fmt::format("#{:02x}{:02x}c8", pale, pale);
-  }
-
-  Svg svg_{1, 1};
-};
-
 std::string inline_svg(const std::string& document) {
   const std::size_t start = document.find("<svg");
   return start == document.npos ? document : document.substr(start);
@@ -178,15 +58,16 @@ std::string pictures(const Diagnosis& diagnosis, double flow_deg) {
     if (const ResidualProfile* before = profile_of(first, axis)) {
       std::optional<std::pair<double, std::string>> flow;
       if (before->circular) flow.emplace(std::fmod(std::fmod(flow_deg, 180) + 180, 180), "flow");
-      text += inline_svg(ProfilePlot(*before, last ? profile_of(*last, axis) : nullptr, flow).str()) + "\n";
+      text += inline_svg(profile_picture(*before, last ? profile_of(*last, axis) : nullptr, flow)) + "\n";
     }
   text += fmt::format("</div>\n<p class=key><span style='color:#c0392b'>●</span> base model{}</p>\n",
                       last ? " &nbsp; <span style='color:#2166ac'>●</span> with what was added" : "");
   text += "<div class=plots>\n";
-  if (const ResidualProfile* modules = profile_of(first, "module"))
-    text += inline_svg(ModuleMap(*modules, "Module by module: base model").str()) + "\n";
-  if (const ResidualProfile* modules = last ? profile_of(*last, "module") : nullptr)
-    text += inline_svg(ModuleMap(*modules, "With what was added: what stays unexplained").str()) + "\n";
+  const ResidualProfile* base = profile_of(first, "module");
+  const ResidualProfile* rest = last ? profile_of(*last, "module") : nullptr;
+  if (base) text += inline_svg(module_picture(*base, rest, "Module by module: base model")) + "\n";
+  if (rest)
+    text += inline_svg(module_picture(*rest, base, "With what was added: what stays unexplained")) + "\n";
   return text +
          "</div>\n<p class=key>Data <span style='color:#c80000'>■</span> above, <span "
          "style='color:#0000c8'>■</span> below the model, full colour at 4 standard deviations</p>\n";

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reco/diagnose/residual_pictures.h"
+
 namespace floe::test {
 namespace {
 
@@ -71,6 +73,24 @@ TEST_F(Report, SaysWhatIsMissingAndHowMuchOfTheGapCloses) {
   diagnosis_.why_unexplained = {"something remains that no effect of the catalogue explains"};
   EXPECT_NE(sentence().find("; something remains that no effect of the catalogue explains"),
             std::string::npos);
+}
+
+TEST_F(Report, DrawsModulesOfBothLooksInTheSameColumns) {
+  ResidualProfile before, after;
+  before.names = {"36,1", "45,2"}, before.relative = {0.08, 0}, before.error = {0.02, 0.02};
+  after.names = {"38,1", "45,2"}, after.relative = {-0.2, 0}, after.error = {0.02, 0.02};
+  const std::string picture = module_picture(before, &after, "before");
+  const std::string other = module_picture(after, &before, "after");
+  EXPECT_NE(picture.find("#c80000"), std::string::npos) << "4 deviations above are full red";
+  EXPECT_NE(other.find("#0000c8"), std::string::npos) << "10 deviations below are full blue";
+  EXPECT_NE(picture.find("#e1e1e1"), std::string::npos) << "what agrees is grey";
+  const auto labels = [](const std::string& svg) {
+    std::string found;
+    for (const char* name : {">36<", ">38<", ">45<"})
+      if (svg.find(name) != std::string::npos) found += name;
+    return found;
+  };
+  EXPECT_EQ(labels(picture), labels(other)) << "strings that only the other look has keep their columns";
 }
 
 TEST_F(Report, GivesNoShareOfAGapThatGrows) {
