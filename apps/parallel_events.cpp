@@ -1,7 +1,5 @@
 #include "apps/parallel_events.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -9,10 +7,12 @@
 #include <thread>
 #include <vector>
 
+#include "propagation/engine/threads.h"
+
 namespace floe {
 
 EventShares share_cores(std::size_t events, int threads) {
-  const int cores = threads > 0 ? threads : omp_get_max_threads();
+  const int cores = thread_count(threads);
   const int workers = static_cast<int>(std::clamp<std::size_t>(events, 1, static_cast<std::size_t>(cores)));
   return {workers, std::max(1, cores / workers)};
 }

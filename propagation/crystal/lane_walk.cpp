@@ -1,11 +1,10 @@
-#include <omp.h>
-
 #include <algorithm>
 
 #include "propagation/crystal/boundary.h"
 #include "propagation/crystal/lanes.h"
 #include "propagation/crystal/walk.h"
 #include "propagation/crystal/walk_frame.h"
+#include "propagation/engine/threads.h"
 
 namespace floe {
 
@@ -79,7 +78,7 @@ std::vector<WalkedPhoton> walk_photons(const Polycrystal& crystal, const Crystal
   std::vector<WalkedPhoton> photons(count);
   const auto blocks = static_cast<std::int64_t>((count + at_once - 1) / at_once);
   std::int64_t done = 0;
-#pragma omp parallel for schedule(dynamic) num_threads(threads > 0 ? threads : omp_get_max_threads())
+#pragma omp parallel for schedule(dynamic) num_threads(thread_count(threads))
   for (std::int64_t block = 0; block < blocks; ++block) {
     CrystalLanes lanes;
     FirstDirections directions;

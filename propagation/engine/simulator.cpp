@@ -1,8 +1,6 @@
 #include "propagation/engine/simulator.h"
 
 #include <fmt/format.h>
-#include <omp.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -13,6 +11,7 @@
 #include "data/base/error.h"
 #include "propagation/engine/in_order.h"
 #include "propagation/engine/photon_acceptance.h"
+#include "propagation/engine/threads.h"
 #include "propagation/engine/walker.h"
 
 namespace floe {
@@ -105,7 +104,7 @@ SimulationSummary Simulator::run(const Source& source, const SimulationOptions& 
   const auto start = std::chrono::steady_clock::now();
   const std::uint64_t photons = number_to_draw(options.scale * photons_to_propagate(source), options);
   const auto [first_batch, end_batch] = batches_of(photons, options.shard);
-  const int threads = options.threads > 0 ? options.threads : omp_get_num_procs();
+  const int threads = thread_count(options.threads);
   SimulationSummary summary;
   const auto take = [&, first_batch = first_batch, end_batch = end_batch](std::int64_t b,
                                                                           const BatchResult& result) {

@@ -50,8 +50,8 @@ Axis ranged(const std::string& name, const std::string& unit, double low, double
   }
   for (const BinPlace& place : places) {
     const double at = value(place);
-    const int cell = static_cast<int>(std::floor((at - low) / width));
-    axis.cell.push_back(std::isfinite(at) ? std::clamp(cell, 0, cells - 1) : -1);
+    axis.cell.push_back(std::isfinite(at) ? static_cast<int>(std::clamp((at - low) / width, 0.0, cells - 1.0))
+                                          : -1);
   }
   return axis;
 }

@@ -59,6 +59,8 @@ class Trials {
                                       [this](double fraction, const std::string& text) {
                                         if (progress_) progress_(0.3 * fraction, "survey: " + text);
                                       });
+    if (survey.bins == 0)
+      throw NoResult("not enough light: no receiver of any flasher run sees enough to be compared");
     const std::vector<Suspect> suspects = suspects_of(survey, plan);
     const ScoreTester tester(survey, suspects, plan.parameters, options_.calibration());
 
@@ -217,6 +219,13 @@ class Trials {
                         effect, fmt::join(std::views::keys(by_effect), ", ")));
   }
 
+  void tell_what_has_no_place(const ByEffect& by_effect) {
+    if (options_.trials == 0) return;
+    for (const Effect* effect : effects())
+      if (is_wanted(effect->name()) && !by_effect.contains(effect->name()))
+        result_.not_tried[effect->name()] = why_no_suspect(effect->name(), base_, options_.oversize);
+  }
+
   // Of each effect some, and of nothing.
   std::vector<Hidden> plan_trials(const ScoreTester& tester) {
     ByEffect by_effect;
@@ -234,6 +243,7 @@ class Trials {
         result_.not_tried[effect] =
             fmt::format("these runs do not show it at {} standard deviations", options_.significance.least);
     }
+    tell_what_has_no_place(by_effect);
     for (int t = 0; t < options_.nothing; ++t) all.push_back({{}, {}, {}, base_});
     return all;
   }

@@ -26,8 +26,8 @@ namespace {
 
 constexpr std::uint64_t judge_stream = std::uint64_t{1} << 45,
                         gap_stream = judge_stream + (std::uint64_t{1} << 40);
-// Light of the gap's measurement, in units of that of fits, see light_by_runs.h: twice ln L of two
-// simulations differs by tens where they have hardly more light than the data.
+// Light of the gap's measurement, in units of what the settings ask for, see light_by_runs.h: twice ln L of
+// two simulations differs by tens where they have hardly more light than the data.
 constexpr double light_of_gap = 1.2, most_light_of_gap = 2;
 
 void check_options(const DiagnosisOptions& options, int flashers) {
@@ -63,6 +63,7 @@ class Diagnoser {
         result_.p_value = now.p_value();
       }
       const bool gap = now.shows_gap(options_);
+      refusal_.clear();
       if (gap && add_effect(now, step)) continue;
       if (refine_what_waits()) continue;
       // Scores are valid whatever the slopes are: where no fit confirms the name, there is a gap without one.
@@ -70,6 +71,7 @@ class Diagnoser {
       unexplained = step == 0 ? gap : now.p_of_fit < options_.alpha_of_each();
       break;
     }
+    if (!refusal_.empty()) result_.remarks.push_back(refusal_);
     finish(unexplained);
     tell_what_was_not_tested();
     return std::move(result_);
@@ -82,21 +84,23 @@ class Diagnoser {
     return result_.steps.back();
   }
 
-  // Fits the leading suspects and adds the best, when its fit confirms what its score said.
+  // Fits the leading suspects and adds the best, when its fit confirms what its score said. Otherwise the
+  // refusal says why: it holds as long as nothing else changes the model.
   bool add_effect(DiagnosisStep& now, int step) {
     if (now.scores.effects.empty() || now.scores.p_value >= options_.alpha_of_each()) return false;
-    if (step == options_.most_effects) {
-      result_.remarks.push_back(
-          fmt::format("{} was suspected beside them (p = {:.2g}); no more than {} effects are added",
-                      text_of(now.scores.effects.front().best.suspect), now.scores.p_value, step));
+    const Suspect& leader = now.scores.effects.front().best.suspect;
+    const std::string suspected = fmt::format("(p = {:.2g})", now.scores.p_value);
+    if (added_ == options_.most_effects) {
+      refusal_ = fmt::format("{} was suspected beside them {}; no more than {} effects are added",
+                             text_of(leader), suspected, added_);
       return false;
     }
     LeadingSuspects suspects({base_, accepted_, fits_, *judge_, stages_}, now, step);
     std::vector<Candidate> candidates = suspects.fit(result_.remarks);
     if (candidates.empty()) {
-      if (const Suspect& leader = now.scores.effects.front().best.suspect; accepted_.has(leader))
-        result_.remarks.push_back(
-            fmt::format("What stays looks like more of {}, not as it was fitted", text_of(leader)));
+      refusal_ = accepted_.has(leader)
+                     ? fmt::format("What stays looks like more of {}, not as it was fitted", text_of(leader))
+                     : fmt::format("{} was suspected {}, too weakly for a fit", text_of(leader), suspected);
       return false;
     }
     const auto unconfirmed = std::stable_partition(
@@ -109,9 +113,8 @@ class Diagnoser {
     for (const auto* some : {&candidates, &others})
       for (const Candidate& candidate : *some) now.trials.push_back(candidate.trial);
     if (candidates.empty()) {
-      result_.remarks.push_back(
-          fmt::format("{} was suspected (p = {:.2g}), but no fit to fresh light confirms it",
-                      text_of(now.trials.front().suspect), now.scores.p_value));
+      refusal_ = fmt::format("{} was suspected {}, but no fit to fresh light confirms it",
+                             text_of(now.trials.front().suspect), suspected);
       return false;
     }
     accept(now, candidates.front().fit);
@@ -146,7 +149,7 @@ class Diagnoser {
         result_.remarks.push_back(
             fmt::format("{} can hardly be told from {}", text_of(rival.suspect), text_of(trial.suspect)));
     accepted_.add(std::move(named), fit);
-    found_ = true;
+    ++added_;
     now.added = accepted_.effects().size() - 1;
     retest();
     layers_wait_ = true;
@@ -179,8 +182,12 @@ class Diagnoser {
       if (accepted_.spread_of_layers(birefringence, layered) < least_spread) return false;
       accepted_.take_layers(birefringence, layered);
       return true;
-    } catch (const Error&) {
-      return false;  // some layer scatters too little for so strong crystals: one strength for all stays
+    } catch (const InputError&) {
+      result_.remarks.push_back(
+          "Birefringence has one strength for all layers: on the way to one for each, some layer scatters "
+          "too "
+          "little for so strong crystals");
+      return false;
     }
   }
 
@@ -234,9 +241,9 @@ class Diagnoser {
   void finish(bool unexplained) {
     measure_gaps(unexplained);
     if (!accepted_.empty() && !result_.looked_at_improved)
-      look_at(accepted_.model(), options_.most_effects + 1);
+      look_at(accepted_.model(), static_cast<int>(result_.steps.size()));
     // A gap whose names were given up is there all the same.
-    if (found_)
+    if (added_ > 0)
       unexplained = unexplained || accepted_.empty() || *result_.p_of_rest < options_.alpha_of_each();
     result_.improved = accepted_.model();
     result_.effects = accepted_.effects();
@@ -281,9 +288,9 @@ class Diagnoser {
   void measure_gaps(bool gap_stays) {
     constexpr double too_much = 2;
     RunSettings settings = options_;
-    if (found_) settings.light *= light_by_runs(data_.runs.size(), light_of_gap, most_light_of_gap);
+    if (added_ > 0) settings.light *= light_by_runs(data_.runs.size(), light_of_gap, most_light_of_gap);
     result_.folds = std::min(options_.folds, flasher_count(data_));
-    HeldOutGaps gaps(base_, data_, looks_.first_look(), settings, gap_stream, result_.folds, fits_);
+    const HeldOutGaps gaps(base_, data_, looks_.first_look(), settings, gap_stream, result_.folds, fits_);
     for (std::size_t r = 0; r < data_.runs.size(); ++r)
       result_.gaps.push_back({data_.runs[r].name, gaps.of_base().of_runs[r], 0});
     result_.gap_before = gaps.of_base().total();
@@ -291,7 +298,7 @@ class Diagnoser {
     const double of_floor = neg_llh_of_floor(data_, options_.floor);
     result_.gap_of_floor = 2 * of_floor;
     take_gaps(gaps.of_base());
-    if (!found_) return;
+    if (added_ == 0) return;
     while (!accepted_.empty()) {
       const Gaps with = gaps.of(accepted_, stages_, 0.9, 0.95);
       take_gaps(with);
@@ -312,7 +319,7 @@ class Diagnoser {
       take_gaps(gaps.of_base());
       refit();
     }
-    std::ranges::copy(gaps.remarks(), std::back_inserter(result_.remarks));
+    std::ranges::copy(gap_remarks_, std::back_inserter(result_.remarks));
     if (result_.gap_unknown > gaps.noise_of_differences())
       result_.remarks.push_back(fmt::format(
           "What runs do not tell of others makes the gap after larger by {:.0f}", result_.gap_unknown));
@@ -323,8 +330,7 @@ class Diagnoser {
   // nearly all of it.
   bool is_patchwork() const {
     constexpr double nearly_all = 0.8;
-    return accepted_.effects().size() == static_cast<std::size_t>(options_.most_effects) &&
-           accepted_.effects().size() > 1 && result_.closed() < nearly_all;
+    return added_ == options_.most_effects && accepted_.effects().size() > 1 && result_.closed() < nearly_all;
   }
   void give_up_all() {
     const std::size_t named = accepted_.effects().size();
@@ -336,6 +342,7 @@ class Diagnoser {
     for (std::size_t r = 0; r < gaps.of_runs.size(); ++r) result_.gaps[r].after = gaps.of_runs[r];
     result_.gap_after = gaps.total();
     result_.gap_unknown = gaps.unknown;
+    gap_remarks_ = gaps.remarks;
   }
 
   // With several effects the question costs a fit and a measurement. The answer is known where the last one
@@ -351,11 +358,12 @@ class Diagnoser {
   }
 
   // Of what was found before the last effect, or of the base where that is better.
-  Gaps without_last(HeldOutGaps& gaps) {
-    if (accepted_.effects().size() == 1 || result_.folds == 1) return gaps.of_base();
+  Gaps without_last(const HeldOutGaps& gaps) {
+    if (accepted_.effects().size() == 1) return gaps.of_base();
     AcceptedEffects fewer = accepted_;
     fewer.drop(fewer.effects().size() - 1);
     try {
+      if (result_.folds == 1) fewer.take(fits_.fit(fewer.parameters()));  // otherwise folds are fitted
       return std::min(gaps.of_base(), gaps.of(fewer, stages_, 0.95, 1),
                       [](const Gaps& a, const Gaps& b) { return a.known() < b.known(); });
     } catch (const InputError&) {
@@ -375,8 +383,10 @@ class Diagnoser {
   std::optional<ModelJudge> judge_;  // of the runs that the first look has left
   EffectFits fits_;
   AcceptedEffects accepted_;
-  bool layers_wait_ = false;  // to be asked for, since an effect came in
-  bool found_ = false;        // anything, even if it was given up again
+  bool layers_wait_ = false;              // to be asked for, since an effect came in
+  int added_ = 0;                         // effects, also those that were given up again
+  std::string refusal_;                   // why the last look added none
+  std::vector<std::string> gap_remarks_;  // of the gaps that the result has
   Diagnosis result_;
 };
 

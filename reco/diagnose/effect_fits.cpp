@@ -11,8 +11,8 @@ namespace {
 
 constexpr int rounds_of_fits = 4, rounds_of_layers = 7, rounds_of_rivals = 4;
 // For six runs, see light_by_runs.h: of pairs, in units of a run's own simulation, of the first round and of
-// later ones, which remember what those before them saw, and of fits that leave runs out, in units of other
-// fits'.
+// later ones, which remember what those before them saw, and of fits that leave runs out, in units of what
+// the settings ask for.
 constexpr double light_of_pairs = 0.5, light_of_first_round = 0.4, light_of_later_rounds = 0.6,
                  light_of_folds = 1.5, most_light_of_folds = 3;
 // Rivals are alike. Of each run, at least so many hits, or as many as these times the brightest run's: with
@@ -66,7 +66,7 @@ IceFitOptions EffectFits::options(int rounds) const {
   asked.least_pair_hits = enough_pair_hits;
   asked.first_light = light_by_runs(data_.runs.size(), light_of_first_round, 1);
   asked.later_light = light_by_runs(data_.runs.size(), light_of_later_rounds, 1);
-  asked.remembers = asked.later_light < 1;
+  asked.remembers = asked.later_light < 1;  // otherwise a round has all the light that a fit needs
   return asked;
 }
 

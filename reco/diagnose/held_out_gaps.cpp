@@ -48,7 +48,7 @@ HeldOutGaps::HeldOutGaps(const Model& base, const FlasherData& data, const First
   for (const ModelJudge::Fit& fit : fits_of_base_) of_base_.of_runs.push_back(gap(fit));
 }
 
-Gaps HeldOutGaps::of(const AcceptedEffects& effects, Stages& stages, double from, double to) {
+Gaps HeldOutGaps::of(const AcceptedEffects& effects, Stages& stages, double from, double to) const {
   stages.begin(from, to, "holding runs out");
   const int folds = held_out_.folds();
   const std::vector<GroupModel> groups =
@@ -57,6 +57,10 @@ Gaps HeldOutGaps::of(const AcceptedEffects& effects, Stages& stages, double from
   for (int fold = 0; fold < folds; ++fold) {
     const GroupModel& group = groups[static_cast<std::size_t>(fold)];
     gaps.unknown += group.unknown;
+    if (!group.is_fitted)
+      gaps.remarks.push_back(fmt::format(
+          "Without the runs of group {} of {} the others fit to no physical ice: the base judges these runs",
+          fold + 1, folds));
     for (std::size_t r = 0; r < gaps.of_runs.size(); ++r)
       if (held_out_.holds(r, fold)) gaps.of_runs[r] = gap(judge_.judge(group.model, r));
   }
@@ -64,10 +68,9 @@ Gaps HeldOutGaps::of(const AcceptedEffects& effects, Stages& stages, double from
 }
 
 // The base where the other runs lead to no ice that can be: they tell nothing of this then.
-std::vector<HeldOutGaps::GroupModel> HeldOutGaps::fitted_without(const AcceptedEffects& effects) {
+std::vector<HeldOutGaps::GroupModel> HeldOutGaps::fitted_without(const AcceptedEffects& effects) const {
   std::vector<IceParameter> parameters = effects.parameters();
   for (IceParameter& p : parameters) expect_no_change(p, base_);
-  remarks_.clear();
   std::vector<FitWithout> fits;
   try {
     fits = fits_.fit_without(held_out_.left_out(), parameters);
@@ -75,16 +78,9 @@ std::vector<HeldOutGaps::GroupModel> HeldOutGaps::fitted_without(const AcceptedE
     fits.resize(static_cast<std::size_t>(held_out_.folds()));  // no physical ice on the way of any of them
   }
   std::vector<GroupModel> groups;
-  for (const FitWithout& fit : fits) {
-    if (fit.numbers) {
-      groups.push_back({with_parameters(base_, parameters, *fit.numbers), fit.unknown});
-      continue;
-    }
-    groups.push_back({base_});
-    remarks_.push_back(fmt::format(
-        "Without the runs of group {} of {} the others fit to no physical ice: the base judges these runs",
-        groups.size(), held_out_.folds()));
-  }
+  for (const FitWithout& fit : fits)
+    groups.push_back(fit.numbers ? GroupModel{with_parameters(base_, parameters, *fit.numbers), fit.unknown}
+                                 : GroupModel{.model = base_, .is_fitted = false});
   return groups;
 }
 

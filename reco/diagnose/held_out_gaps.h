@@ -25,6 +25,8 @@ struct Gaps {
   std::vector<double> of_runs;
   // Part of their sum that is due to what the runs that a model was fitted to do not tell of it (FitWithout).
   double unknown = 0;
+  // Sentences on groups that the others could not be fitted without.
+  std::vector<std::string> remarks = {};
 
   double total() const;
   // Of models that other runs tell of, or do not, alike.
@@ -45,23 +47,21 @@ class HeldOutGaps {
   double noise_of_differences() const { return 2 * judge_.noise_of_differences(); }
   // Each run by a model whose effects were fitted to the runs of all groups but its own. `stages`: from here
   // to `to`.
-  Gaps of(const AcceptedEffects& effects, Stages& stages, double from, double to);
+  Gaps of(const AcceptedEffects& effects, Stages& stages, double from, double to) const;
 
   // Probability of so bad a fit of all runs, were the model true but for differences that raise -ln L by
   // `allowed`.
   double p_of_base(double allowed) const;
   double p_of(const Model& model, double allowed) const;
 
-  // Sentences on groups that the others could not be fitted without, when effects were held out last.
-  const std::vector<std::string>& remarks() const { return remarks_; }
-
  private:
-  // By group, a model that was fitted to the runs of the others.
+  // A model that was fitted to the runs of the other groups.
   struct GroupModel {
     Model model;
     double unknown = 0;
+    bool is_fitted = true;
   };
-  std::vector<GroupModel> fitted_without(const AcceptedEffects& effects);
+  std::vector<GroupModel> fitted_without(const AcceptedEffects& effects) const;
 
   const Model& base_;
   const FlasherData& data_;
@@ -71,7 +71,6 @@ class HeldOutGaps {
   std::vector<ModelJudge::Fit> fits_of_base_;
   ExpectedFit right_of_base_;
   Gaps of_base_;
-  std::vector<std::string> remarks_;
 };
 
 }  // namespace floe

@@ -17,7 +17,7 @@ constexpr std::size_t most_trials = 3;
 // Of the best chi-square so far, after two rounds and after more: the further a fit has come, the less it
 // catches up. And of the chi-square that the score promises.
 constexpr double hopeless_share = 0.3, hopeless_share_later = 0.7, hopeless_share_of_promise = 0.1;
-constexpr double confirmed_share = 0.4;  // of the gain that a score promised, by a fit
+constexpr double confirmed_share = 0.4;  // of the gain that the effect's best score promised, by a fit
 
 }  // namespace
 

@@ -1,7 +1,6 @@
 #include "reco/diagnose/survey.h"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <map>
 #include <random>
 
+#include "propagation/engine/threads.h"
 #include "reco/diagnose/displaced_strings.h"
 #include "reco/diagnose/place_columns.h"
 #include "reco/ice_fit/ice_point.h"
@@ -297,7 +297,7 @@ SurveyCounts drawn_counts(const Survey& survey, std::uint64_t seed, std::uint64_
 }
 
 int cores(const Draws& draws) {
-  return draws.threads > 0 ? draws.threads : omp_get_max_threads();
+  return thread_count(draws.threads);
 }
 
 Eigen::VectorXd gap_of(const Survey& survey, const SurveyCounts& counts) {

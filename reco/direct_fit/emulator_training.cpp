@@ -1,11 +1,11 @@
 #include "reco/direct_fit/emulator_training.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
+
+#include "propagation/engine/threads.h"
 
 namespace floe {
 namespace {
@@ -281,7 +281,7 @@ std::vector<ModuleLight> list_modules(const EventData& data, const MeanIce& ice,
 
 std::vector<ModuleLight> train(const EventData& data, const MeanIce& ice, const LocalFrame& frame,
                                std::span<const LightSample* const> samples, CascadeKind kind, int threads) {
-  threads = threads > 0 ? threads : omp_get_max_threads();
+  threads = thread_count(threads);
   std::vector<ModuleLight> modules = list_modules(data, ice, frame.origin());
   std::vector<ModuleCounts> counts(modules.size());
   const std::vector<SampleView> views = view(samples, frame, kind);

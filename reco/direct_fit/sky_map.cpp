@@ -1,7 +1,6 @@
 #include "reco/direct_fit/sky_map.h"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -11,6 +10,7 @@
 #include <limits>
 
 #include "data/base/error.h"
+#include "propagation/engine/threads.h"
 #include "reco/direct_fit/constrained_score.h"
 #include "reco/figures/contours.h"
 
@@ -200,7 +200,7 @@ SkyMap make_sky_map(const ScoreLikelihood& likelihood, int pixels, int threads) 
   map.step = half_width(likelihood) / (pixels / 2);
   map.zenith = best.zenith;
   map.azimuth = best.azimuth;
-  MapMaker(likelihood, map).run(threads > 0 ? threads : omp_get_max_threads());
+  MapMaker(likelihood, map).run(thread_count(threads));
   return map;
 }
 

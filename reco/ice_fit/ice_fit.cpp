@@ -34,6 +34,8 @@ void check(const IceFitOptions& options) {
     throw UsageError("the widths of priors must be positive");
   if (!(options.efficiency_width >= 0 && options.efficiency_width <= 1))
     throw UsageError("the width of efficiencies must be from 0 to 1");
+  if (options.remembers && options.efficiency_width > 0)
+    throw UsageError("fits that remember their rounds know the receivers' efficiencies");
   if (!(options.pair_light > 0)) throw UsageError("pairs of simulations need light");
   if (!(options.first_light > 0 && options.later_light > 0)) throw UsageError("rounds need light");
   if (options.most_rounds < 1) throw UsageError("a fit needs at least one round");
@@ -62,7 +64,8 @@ class Fit {
   }
 
   IceFit run() {
-    look_first();
+    scores_.look_first(model(), false);
+    fit_.left_out = scores_.left_out();
     for (round_ = 1; round_ <= options_.most_rounds && !fit_.converged && !is_settled(); ++round_)
       one_round();
     if (options_.judged) judge();
@@ -71,7 +74,7 @@ class Fit {
   }
 
   std::vector<FitWithout> run_without(const std::vector<std::vector<char>>& left_out) {
-    look_first();
+    scores_.look_first(model(), true);
     round_ = 1;
     one_round();
     ++round_;
@@ -96,11 +99,6 @@ class Fit {
 
   std::size_t count() const { return fit_.parameters.size(); }
   Model model() const { return with_parameters(base_, fit_.parameters, fit_.numbers); }
-
-  void look_first() {
-    scores_.look_first(model());
-    fit_.left_out = scores_.left_out();
-  }
 
   IcePoint begin_round() {
     IcePoint point(base_, fit_.parameters, fit_.numbers, scores_.wavelength());
@@ -168,7 +166,7 @@ class Fit {
 
   // By how much the fit has gone on: parameters as far as they went, nuisances all of the step.
   void remember(const std::vector<double>& before, Eigen::VectorXd step, const StepSize& size) {
-    if (size.furthest > linear) {
+    if (size.furthest > linear || !scores_.is_short(step, count())) {
       memory_.forget();
       return;
     }
@@ -181,8 +179,10 @@ class Fit {
   std::vector<double> stepped(const Eigen::VectorXd& step) const {
     constexpr double least = 1.0 / 64;
     for (double share = 1;; share /= 2) {
-      std::vector<double> numbers = fit_.numbers;
-      for (std::size_t p = 0; p < count(); ++p) numbers[p] += share * step(static_cast<Eigen::Index>(p));
+      std::vector<double> numbers;
+      for (std::size_t p = 0; p < count(); ++p)
+        numbers.push_back(
+            fit_.parameters[p].within(fit_.numbers[p] + share * step(static_cast<Eigen::Index>(p))));
       try {
         with_parameters(base_, fit_.parameters, numbers);
         return numbers;

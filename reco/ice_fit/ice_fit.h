@@ -33,7 +33,7 @@ struct IceFitOptions : RunSettings {
   // `light`.
   double first_light = 1, later_light = 1;
   // Rounds after the first are solved together with those before, moved to where the fit is; each adds its
-  // light, and none is the last but `most_rounds`.
+  // light, and none is the last but `most_rounds`, unless `settled` says so.
   bool remembers = false;
   int most_rounds = 6;
   // Asked about the fit so far, from the second round on: whether what it was wanted for is settled. Empty:

@@ -84,6 +84,10 @@ std::vector<IceParameter> layer_parameters(LayerFamily family, const DepthRange&
   return parameters;
 }
 
+double IceParameter::within(double number) const {
+  return std::clamp(number, low, high);
+}
+
 void IceParameter::begin_at(double number) {
   if (!prior_centre) prior_centre = start;
   start = number;

@@ -33,6 +33,8 @@ struct IceParameter {
   std::function<void(double number, ModelParts& model)> apply;
   std::optional<EffectSetting> effect;  // its value is the number
 
+  // The nearest number in its limits: sums of steps that meet them are off by a rounding.
+  double within(double number) const;
   // Where the data have led already. The prior stays where it is: data must not speak twice.
   void begin_at(double number);
 };

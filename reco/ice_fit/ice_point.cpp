@@ -53,7 +53,7 @@ IcePoint::IcePoint(const Model& base, const std::vector<IceParameter>& parameter
 
 Model IcePoint::moved(std::size_t parameter, double step) const {
   std::vector<double> moved = numbers_;
-  moved[parameter] += step;
+  moved[parameter] = parameters_[parameter].within(numbers_[parameter] + step);
   return with_parameters(base_, parameters_, moved);
 }
 

@@ -55,8 +55,9 @@ class Climb {
 
   // Held-out runs are compared in bins of the base's light, the same for every rung.
   void plan_measure() {
-    const FirstLook look = look_first(
+    FirstLook look = look_first(
         base_, [this](std::size_t r, double photons) { return request(r, first_stream, photons); }, data_);
+    leave_out_dark_runs(data_, look);
     judge_.emplace(base_, data_, look, options_.fit, held_out_stream);
   }
 

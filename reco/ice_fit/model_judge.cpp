@@ -1,11 +1,10 @@
 #include "reco/ice_fit/model_judge.h"
 
-#include <omp.h>
-
 #include <numeric>
 #include <random>
 #include <vector>
 
+#include "propagation/engine/threads.h"
 #include "reco/ice_fit/photon_draws.h"
 
 namespace floe {
@@ -65,7 +64,7 @@ ModelJudge::Fit ModelJudge::judge(const Model& model, std::size_t run) const {
                            data_.runs[run].run.oversize > 1, data_.runs[run].charge_dispersion,
                            settings_.model_error);
   std::vector<double> drawn(draws);
-  const int threads = settings_.threads > 0 ? settings_.threads : omp_get_num_procs();
+  const int threads = thread_count(settings_.threads);
 #pragma omp parallel for num_threads(threads)
   for (int d = 0; d < draws; ++d) {
     const std::uint64_t stream = (stream_ + run) * draws + static_cast<std::uint64_t>(d);

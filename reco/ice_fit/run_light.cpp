@@ -1,10 +1,9 @@
 #include "reco/ice_fit/run_light.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <array>
 
+#include "propagation/engine/threads.h"
 #include "propagation/sources/flasher.h"
 #include "reco/ice_fit/smooth_slopes.h"
 #include "reco/pulse_delays.h"
@@ -114,7 +113,7 @@ RunLight light_with_slopes(const Model& model, const RunRequest& request, const 
   const FlasherSource source = source_of(model, request);
   const auto tracer = make_path_tracer(model, request.oversize);
   const PulseDelays delay_of(request.delays, request.seed, request.stream);
-  const int threads = request.threads > 0 ? request.threads : omp_get_num_procs();
+  const int threads = thread_count(request.threads);
   const std::size_t share = (photons.size() + parts - 1) / parts;
   std::vector<std::array<LightFold, 2>> sums(parts);
 #pragma omp parallel for schedule(dynamic) num_threads(threads)

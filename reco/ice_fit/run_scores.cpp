@@ -33,10 +33,12 @@ RunRequest RunScores::request(std::size_t r, std::uint64_t purpose, double photo
       states_[r].brightness);
 }
 
-void RunScores::look_first(const Model& model) {
-  const FirstLook look = floe::look_first(
+void RunScores::look_first(const Model& model, bool runs_keep_numbers) {
+  FirstLook look = floe::look_first(
       model, [this](std::size_t r, double photons) { return request(r, 0, photons); }, data_);
   propagated_ += look.propagated;
+  if (!runs_keep_numbers) leave_out_dark_runs(data_, look);
+  states_.resize(data_.runs.size());
   for (std::size_t r = 0; r < states_.size(); ++r) {
     states_[r].hits_per_photon = look.hits_per_photon[r];
     states_[r].brightness = look.brightness[r];
@@ -96,6 +98,15 @@ void RunScores::add(const IcePoint& point, std::size_t r, std::size_t parameters
     add_run(light, state.seen, counts, columns, system);
     for (int fold = 0; fold < 2; ++fold) state.seen.folds[fold] += light.folds[fold];
   }
+}
+
+bool RunScores::is_short(const Eigen::VectorXd& step, std::size_t parameters) const {
+  constexpr double brightness = 0.1, time_zero = 2;  // in the logarithm; [ns]
+  for (std::size_t r = 0; r < count(); ++r) {
+    const auto i = static_cast<Eigen::Index>(parameters + 2 * r);
+    if (std::abs(step(i)) > brightness || std::abs(step(i + 1)) > time_zero) return false;
+  }
+  return true;
 }
 
 void RunScores::step_nuisances(const Eigen::VectorXd& step, std::size_t parameters) {

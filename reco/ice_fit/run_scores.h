@@ -29,9 +29,9 @@ class RunScores {
   double wavelength() const { return data_.runs.front().run.wavelength; }  // all have the same [nm]
   std::uint64_t propagated() const { return propagated_; }                 // photons so far
 
-  // How much light of each run is seen, and which receivers cannot be right. Throws NoResult when no run has
-  // light to fit.
-  void look_first(const Model& model);
+  // How much light of each run is seen, and which receivers cannot be right. Runs that no receiver is left of
+  // are left out, unless runs must keep their numbers. Throws NoResult when no run is left.
+  void look_first(const Model& model, bool runs_keep_numbers);
   // Every round has random numbers of its own. The first may be far from the data; from the second one on,
   // bins stay and slopes gather.
   void begin_round(const Model& model);
@@ -42,6 +42,8 @@ class RunScores {
   // efficiencies.
   void add(const IcePoint& point, std::size_t run, std::size_t parameters,
            const EfficiencyColumns& efficiencies, ScoreSystem& system);
+  // Whether light changes in proportion to such a step of brightness and time zero.
+  bool is_short(const Eigen::VectorXd& step, std::size_t parameters) const;
   // By a solution of the system's.
   void step_nuisances(const Eigen::VectorXd& step, std::size_t parameters);
   // With random numbers of its own, as rounds have them.

@@ -5,12 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
 #include <random>
 
+#include "data/base/error.h"
 #include "reco/diagnose/hidden_draws.h"
 #include "reco/diagnose/score_test.h"
 #include "reco/diagnose/seen_above.h"
@@ -20,6 +22,7 @@
 #include "reco/ice_fit/ice_fit.h"
 #include "reco/ice_fit/ice_point.h"
 #include "reco/ice_fit/model_judge.h"
+#include "reco/ice_fit/run_scores.h"
 
 namespace floe::test {
 namespace {
@@ -247,6 +250,66 @@ TEST_F(OfOneFlasher, AFitWithoutARunKnowsNothingOfIt) {
   // of which the second tells nothing.
   EXPECT_NEAR(without[0].unknown, 1, 0.5);
   EXPECT_GT(without[1].unknown, without[0].unknown + 1);
+}
+
+// Rounds that are solved together have the light of all of them: errors of sqrt(1 + 1/(4 L)) instead of
+// sqrt(1 + 1/L), with simulations of L times the data's light and four rounds after the first.
+TEST_F(OfOneFlasher, AFitThatRemembersHasTheLightOfItsRounds) {
+  constexpr double truth = 1.08, light = 0.5;
+  const EffectSetting setting{"absorption-scale", "factor", truth};
+  ModelParts parts = parts_of(model_);
+  apply_effects({&setting, 1}, parts);
+  const FlasherData data = data_of({event_of(freeze(std::move(parts)), request(photons_, data_stream + 30))});
+  IceFitOptions options;
+  static_cast<RunSettings&>(options) = settings_;
+  options.light = {light, 1, 1e12};
+  options.judged = false;
+  options.most_rounds = 5;
+  options.settled = [](const IceFit&) { return false; };
+  const auto fitted = [&](bool remembers) {
+    options.remembers = remembers;
+    return fit_ice(model_, data, {effect_parameter("absorption-scale", model_)}, options);
+  };
+  const IceFit fit = fitted(true), forgetful = fitted(false);
+  EXPECT_EQ(fit.rounds, 5);
+  EXPECT_NEAR(fit.value(0), truth, 3 * fit.error(0));
+  const double expected = std::sqrt((1 + 1 / (4 * light)) / (1 + 1 / light));
+  EXPECT_NEAR(fit.error(0) / forgetful.error(0), expected, 0.15);
+}
+
+TEST_F(OfOneFlasher, AFitKnowsShortStepsOfItsNuisances) {
+  IceFitOptions options;
+  static_cast<RunSettings&>(options) = settings_;
+  const RunScores scores(data_, options);
+  constexpr int parameters = 1;
+  const auto is_short = [&](double brightness, double time_zero) {
+    return scores.is_short(Eigen::Vector3d(9, brightness, time_zero), parameters);
+  };
+  EXPECT_TRUE(is_short(-0.05, 1));
+  EXPECT_FALSE(is_short(-0.2, 1));
+  EXPECT_FALSE(is_short(0.05, -8));
+}
+
+// A run whose receivers all saturate has no light to fit.
+TEST_F(OfOneFlasher, AFitLeavesOutDarkRuns) {
+  FlasherData data = data_of({event_of(model_, request(photons_, data_stream + 1)),
+                              event_of(model_, request(photons_, data_stream + 40))});
+  const auto darken = [&](RunData& run) {
+    std::ranges::fill(run.used, char{0});
+    run.pulses.clear();
+    run.charge = 0;
+  };
+  darken(data.runs[0]);
+  IceFitOptions options;
+  static_cast<RunSettings&>(options) = settings_;
+  options.most_rounds = 1;
+  const std::vector<IceParameter> parameters{effect_parameter("absorption-scale", model_)};
+  const IceFit fit = fit_ice(model_, data, parameters, options);
+  EXPECT_EQ(fit.runs.size(), 1u);
+  ASSERT_EQ(fit.left_out.size(), 1u);
+  EXPECT_NE(fit.left_out[0].find("no receiver is left"), std::string::npos) << fit.left_out[0];
+  darken(data.runs[1]);
+  EXPECT_THROW(fit_ice(model_, data, parameters, options), NoResult);
 }
 
 class ASurvey : public OfOneFlasher {

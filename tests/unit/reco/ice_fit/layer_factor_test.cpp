@@ -46,5 +46,21 @@ TEST(LayerFactor, NeedsSomethingToChange) {
   EXPECT_THROW(layer_factor(LayerFamily::birefringence, 1500, 1600, uniform_model(false)), UsageError);
 }
 
+// A step that meets a limit ends there, though the sum is rounded to a number beyond it.
+TEST(IceParameter, StaysWithinItsLimitsWhateverIsRounded) {
+  const Model base = uniform_model(true);
+  const IceParameter scale = effect_parameter("absorption-scale", base);
+  ASSERT_FALSE(scale.logarithmic);
+  int beyond = 0;
+  for (double number = 0.2; number < 2.5; number += 0.01) {
+    const double sum = number + (scale.low - number);
+    if (sum >= scale.low) continue;
+    ++beyond;
+    ASSERT_THROW(with_parameters(base, {scale}, {sum}), UsageError) << number;
+    ASSERT_NO_THROW(with_parameters(base, {scale}, {scale.within(sum)})) << number;
+  }
+  EXPECT_GT(beyond, 0);
+}
+
 }  // namespace
 }  // namespace floe
