@@ -10,11 +10,12 @@
 
 #include "data/base/error.h"
 #include "propagation/effects/effect.h"
+#include "reco/diagnose/additions.h"
 #include "reco/diagnose/effect_fits.h"
 #include "reco/diagnose/goodness.h"
 #include "reco/diagnose/leading_suspects.h"
-#include "reco/diagnose/light_by_runs.h"
 #include "reco/diagnose/looks.h"
+#include "reco/diagnose/measured_gaps.h"
 #include "reco/diagnose/rivals.h"
 #include "reco/diagnose/stages.h"
 #include "reco/diagnose/unexplained.h"
@@ -24,11 +25,7 @@ namespace floe {
 
 namespace {
 
-constexpr std::uint64_t judge_stream = std::uint64_t{1} << 45,
-                        gap_stream = judge_stream + (std::uint64_t{1} << 40);
-// Light of the gap's measurement, in units of what the settings ask for, see light_by_runs.h: twice ln L of
-// two simulations differs by tens where they have hardly more light than the data.
-constexpr double light_of_gap = 1.2, most_light_of_gap = 2;
+constexpr std::uint64_t judge_stream = std::uint64_t{1} << 45;
 
 void check_options(const DiagnosisOptions& options, int flashers) {
   check(static_cast<const RunSettings&>(options));
@@ -51,7 +48,8 @@ class Diagnoser {
         stages_(progress),
         looks_(base, data_, options, stages_),
         fits_(base, data_, options, stages_),
-        accepted_(base) {}
+        additions_(base, fits_, result_),
+        accepted_(additions_.accepted()) {}
 
   Diagnosis run() {
     bool unexplained = false;
@@ -90,9 +88,9 @@ class Diagnoser {
     if (now.scores.effects.empty() || now.scores.p_value >= options_.alpha_of_each()) return false;
     const Suspect& leader = now.scores.effects.front().best.suspect;
     const std::string suspected = fmt::format("(p = {:.2g})", now.scores.p_value);
-    if (added_ == options_.most_effects) {
+    if (additions_.count() == options_.most_effects) {
       refusal_ = fmt::format("{} was suspected beside them {}; no more than {} effects are added",
-                             text_of(leader), suspected, added_);
+                             text_of(leader), suspected, additions_.count());
       return false;
     }
     LeadingSuspects suspects({base_, accepted_, fits_, *judge_, stages_}, now, step);
@@ -148,10 +146,7 @@ class Diagnoser {
       if (rival.suspect.effect == trial.suspect.effect && lost_narrowly(rival))
         result_.remarks.push_back(
             fmt::format("{} can hardly be told from {}", text_of(rival.suspect), text_of(trial.suspect)));
-    accepted_.add(std::move(named), fit);
-    ++added_;
-    now.added = accepted_.effects().size() - 1;
-    retest();
+    additions_.add(std::move(named), fit);
     layers_wait_ = true;
     // What else is missing hides what layers differ in, or is taken for it: asked again with every effect
     // that comes in, once none is known to be missing.
@@ -180,13 +175,12 @@ class Diagnoser {
           fits_.fit_layers(accepted_.parameters_by_layers(birefringence, LayerFamily::birefringence, range));
       const double least_spread = 2 * (range.groups - 1);
       if (accepted_.spread_of_layers(birefringence, layered) < least_spread) return false;
-      accepted_.take_layers(birefringence, layered);
+      additions_.take_layers(birefringence, layered);
       return true;
     } catch (const InputError&) {
       result_.remarks.push_back(
           "Birefringence has one strength for all layers: on the way to one for each, some layer scatters "
-          "too "
-          "little for so strong crystals");
+          "too little for so strong crystals");
       return false;
     }
   }
@@ -203,47 +197,13 @@ class Diagnoser {
            is_inseparable(other, leader);
   }
 
-  // A new effect may explain an earlier one away.
-  void retest() {
-    while (const std::optional<AcceptedEffects::Faded> faded = accepted_.faded()) {
-      const std::vector<NamedEffect>& effects = accepted_.effects();
-      result_.remarks.push_back(fmt::format("{} was given up when {} came in: {:.1f} standard deviations",
-                                            text_of(effects[faded->effect].suspect),
-                                            text_of(effects.back().suspect), faded->sigmas));
-      drop(faded->effect);
-      refit();
-    }
-  }
-  // What a dropped effect had taken goes to the others.
-  void refit() {
-    while (!accepted_.empty()) try {
-        accepted_.take(fits_.fit(accepted_.parameters()));
-        return;
-      } catch (const InputError&) {
-        give_up(accepted_.effects().size() - 1, "no physical ice without what was given up before");
-      }
-  }
-  void drop(std::size_t effect) {
-    accepted_.drop(effect);
-    for (DiagnosisStep& step : result_.steps)
-      if (step.added == effect)
-        step.added.reset();
-      else if (step.added && *step.added > effect)
-        --*step.added;
-  }
-  void give_up(std::size_t effect, const std::string& why) {
-    result_.remarks.push_back(
-        fmt::format("{} was given up: {}", text_of(accepted_.effects()[effect].suspect), why));
-    drop(effect);
-    result_.looked_at_improved = false;
-  }
-
   void finish(bool unexplained) {
-    measure_gaps(unexplained);
+    measure_gaps({base_, data_, looks_.first_look(), options_, fits_, stages_, unexplained}, additions_,
+                 result_);
     if (!accepted_.empty() && !result_.looked_at_improved)
-      look_at(accepted_.model(), static_cast<int>(result_.steps.size()));
+      look_at(accepted_.model(), std::max(options_.most_effects + 1, static_cast<int>(result_.steps.size())));
     // A gap whose names were given up is there all the same.
-    if (added_ > 0)
+    if (additions_.count() > 0)
       unexplained = unexplained || accepted_.empty() || *result_.p_of_rest < options_.alpha_of_each();
     result_.improved = accepted_.model();
     result_.effects = accepted_.effects();
@@ -281,96 +241,6 @@ class Diagnoser {
     }
   }
 
-  // Gives up effects that make light worse which the fit has not seen, by more than twice the noise of the
-  // simulations and by more than follows from what the others do not tell (of a string that only one flasher
-  // lights they tell nothing): the last one first, which may have come by what an earlier one has left.
-  // `gap_stays`: the last look saw one.
-  void measure_gaps(bool gap_stays) {
-    constexpr double too_much = 2;
-    RunSettings settings = options_;
-    if (added_ > 0) settings.light *= light_by_runs(data_.runs.size(), light_of_gap, most_light_of_gap);
-    result_.folds = std::min(options_.folds, flasher_count(data_));
-    const HeldOutGaps gaps(base_, data_, looks_.first_look(), settings, gap_stream, result_.folds, fits_);
-    for (std::size_t r = 0; r < data_.runs.size(); ++r)
-      result_.gaps.push_back({data_.runs[r].name, gaps.of_base().of_runs[r], 0});
-    result_.gap_before = gaps.of_base().total();
-    result_.gap_scatter = gaps.scatter_of_base();
-    const double of_floor = neg_llh_of_floor(data_, options_.floor);
-    result_.gap_of_floor = 2 * of_floor;
-    take_gaps(gaps.of_base());
-    if (added_ == 0) return;
-    while (!accepted_.empty()) {
-      const Gaps with = gaps.of(accepted_, stages_, 0.9, 0.95);
-      take_gaps(with);
-      if (gap_stays && is_patchwork()) {
-        give_up_all();
-        take_gaps(gaps.of_base());
-        break;
-      }
-      if (is_past_asking(gaps)) break;
-      const Gaps without = without_last(gaps);
-      if (with.known() <= without.known() + too_much * gaps.noise_of_differences()) break;
-      give_up(accepted_.effects().size() - 1,
-              fmt::format("runs that were held out fit worse with it (a gap of {:.1f}, {:.1f} of which the "
-                          "others cannot know) than {} ({:.1f}, {:.1f})",
-                          with.total(), with.unknown,
-                          accepted_.effects().size() == 1 ? "without" : "without it or any of them",
-                          without.total(), without.unknown));
-      take_gaps(gaps.of_base());
-      refit();
-    }
-    std::ranges::copy(gap_remarks_, std::back_inserter(result_.remarks));
-    if (result_.gap_unknown > gaps.noise_of_differences())
-      result_.remarks.push_back(fmt::format(
-          "What runs do not tell of others makes the gap after larger by {:.0f}", result_.gap_unknown));
-    result_.p_of_rest = accepted_.empty() ? gaps.p_of_base(of_floor) : gaps.p_of(accepted_.model(), of_floor);
-  }
-
-  // Where all that may be added leave a gap, each has taken a part of what none of them is, unless they close
-  // nearly all of it.
-  bool is_patchwork() const {
-    constexpr double nearly_all = 0.8;
-    return added_ == options_.most_effects && accepted_.effects().size() > 1 && result_.closed() < nearly_all;
-  }
-  void give_up_all() {
-    const std::size_t named = accepted_.effects().size();
-    while (!accepted_.empty())
-      give_up(0, fmt::format("{} effects together leave a gap, and none of them names it", named));
-  }
-
-  void take_gaps(const Gaps& gaps) {
-    for (std::size_t r = 0; r < gaps.of_runs.size(); ++r) result_.gaps[r].after = gaps.of_runs[r];
-    result_.gap_after = gaps.total();
-    result_.gap_unknown = gaps.unknown;
-    gap_remarks_ = gaps.remarks;
-  }
-
-  // With several effects the question costs a fit and a measurement. The answer is known where the last one
-  // gains so much in the fit that a small part of it is more than the noise of measured gaps.
-  bool is_past_asking(const HeldOutGaps& gaps) const {
-    constexpr double small_part = 1.0 / 3;
-    const std::size_t effects = accepted_.effects().size();
-    if (effects == 1 || result_.gap_after > result_.gap_before) return false;
-    double gained = 0;
-    for (const DiagnosisStep& step : result_.steps)
-      if (step.added == effects - 1) gained = step.trials.front().chi_square;
-    return small_part * gained > gaps.noise_of_differences();
-  }
-
-  // Of what was found before the last effect, or of the base where that is better.
-  Gaps without_last(const HeldOutGaps& gaps) {
-    if (accepted_.effects().size() == 1) return gaps.of_base();
-    AcceptedEffects fewer = accepted_;
-    fewer.drop(fewer.effects().size() - 1);
-    try {
-      if (result_.folds == 1) fewer.take(fits_.fit(fewer.parameters()));  // otherwise folds are fitted
-      return std::min(gaps.of_base(), gaps.of(fewer, stages_, 0.95, 1),
-                      [](const Gaps& a, const Gaps& b) { return a.known() < b.known(); });
-    } catch (const InputError&) {
-      return gaps.of_base();  // no physical ice without the last one
-    }
-  }
-
   static bool contains(const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   }
@@ -382,12 +252,11 @@ class Diagnoser {
   Looks looks_;
   std::optional<ModelJudge> judge_;  // of the runs that the first look has left
   EffectFits fits_;
-  AcceptedEffects accepted_;
-  bool layers_wait_ = false;              // to be asked for, since an effect came in
-  int added_ = 0;                         // effects, also those that were given up again
-  std::string refusal_;                   // why the last look added none
-  std::vector<std::string> gap_remarks_;  // of the gaps that the result has
+  bool layers_wait_ = false;  // to be asked for, since an effect came in
+  std::string refusal_;       // why the last look added none
   Diagnosis result_;
+  Additions additions_;
+  const AcceptedEffects& accepted_;
 };
 
 }  // namespace
