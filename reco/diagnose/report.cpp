@@ -177,6 +177,8 @@ std::string step_text(const Diagnosis& diagnosis, std::size_t i) {
 }
 
 std::string closing_text(const Diagnosis& diagnosis) {
+  if (diagnosis.has_clear_gap() && diagnosis.closed() >= 1)
+    return fmt::format("all of the gap in {} closes", judged_runs(diagnosis));
   if (diagnosis.has_clear_gap() && diagnosis.closed() >= 0)
     return fmt::format("{:.0f}% of the gap in {} closes", 100 * diagnosis.closed(), judged_runs(diagnosis));
   return fmt::format("the gap in {} goes from {:.1f} to {:.1f}, where chance makes +- {:.1f}",

@@ -93,6 +93,13 @@ TEST_F(Report, DrawsModulesOfBothLooksInTheSameColumns) {
   EXPECT_EQ(labels(picture), labels(other)) << "strings that only the other look has keep their columns";
 }
 
+// A gap below none is a fit that is better than an average one, not more than all of it.
+TEST_F(Report, ClosesNoMoreThanAllOfAGap) {
+  find_anisotropy();
+  diagnosis_.gap_after = -22;
+  EXPECT_NE(sentence().find("; all of the gap in held-out runs closes."), std::string::npos) << sentence();
+}
+
 TEST_F(Report, GivesNoShareOfAGapThatGrows) {
   find_anisotropy();
   diagnosis_.gap_after = 220;
