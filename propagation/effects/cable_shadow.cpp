@@ -20,7 +20,8 @@ class CableShadow final : public Effect {
 
   std::vector<EffectParameter> parameters(const ModelParts& model) const override {
     const double radius = has_cables(model.detector) ? model.acceptance.cable_radius : 0;
-    return {{"radius", "m", "of the cables; 0: they hide nothing", radius, 0, 0.1}};
+    // From cables to none is a large change.
+    return {{"radius", "m", "of the cables; 0: they hide nothing", radius, 0, 0.1, false, 0.02}};
   }
   void apply(std::span<const double> values, ModelParts& model) const override {
     if (has_cables(model.detector))

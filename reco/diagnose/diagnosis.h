@@ -19,7 +19,7 @@
 namespace floe {
 
 // Changes whenever results of diagnoses or of their trials do.
-constexpr int diagnosis_revision = 17;
+constexpr int diagnosis_revision = 18;
 
 struct Diagnosis {
   std::vector<std::string> verdict;  // as in result.json
