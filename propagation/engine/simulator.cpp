@@ -1,6 +1,7 @@
 #include "propagation/engine/simulator.h"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>

@@ -59,8 +59,6 @@ class Trials {
                                       [this](double fraction, const std::string& text) {
                                         if (progress_) progress_(0.3 * fraction, "survey: " + text);
                                       });
-    if (survey.bins == 0)
-      throw NoResult("not enough light: no receiver of any flasher run sees enough to be compared");
     const std::vector<Suspect> suspects = suspects_of(survey, plan);
     const ScoreTester tester(survey, suspects, plan.parameters, options_.calibration());
 
@@ -275,8 +273,8 @@ class Trials {
     const auto numbers_at = [&](const Eigen::VectorXd& amplitudes) {
       std::vector<double> numbers;
       for (const IceParameter& p : parameters)
-        numbers.push_back(std::clamp(
-            null_number(p, base_) + amplitudes(static_cast<Eigen::Index>(numbers.size())), p.low, p.high));
+        numbers.push_back(
+            p.within(null_number(p, base_) + amplitudes(static_cast<Eigen::Index>(numbers.size()))));
       return numbers;
     };
     const auto light = [&](const Eigen::VectorXd& amplitudes) {

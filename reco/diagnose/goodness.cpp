@@ -5,6 +5,7 @@
 #include <numeric>
 #include <vector>
 
+#include "propagation/engine/threads.h"
 #include "reco/validation/two_sample_tests.h"
 
 namespace floe {
@@ -22,7 +23,7 @@ double total_neg_llh(const Survey& survey, const SurveyCounts& counts) {
 
 ExpectedFit expected_fit(const Survey& survey, const Draws& draws) {
   std::vector<double> drawn(static_cast<std::size_t>(draws.count));
-#pragma omp parallel for num_threads(cores(draws))
+#pragma omp parallel for num_threads(thread_count(draws.threads))
   for (int d = 0; d < draws.count; ++d)
     drawn[static_cast<std::size_t>(d)] =
         total_neg_llh(survey, drawn_counts(survey, draws.seed, first_draw + static_cast<std::uint64_t>(d)));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "data/base/error.h"
 #include "reco/diagnose/goodness.h"
 #include "reco/diagnose/light_by_runs.h"
 #include "reco/diagnose/rivals.h"
@@ -59,8 +58,6 @@ DiagnosisStep Looks::look_at(const Model& model, int step) {
   survey_plan.stream = static_cast<std::uint64_t>(step);
   survey_plan.pair_light = light_by_runs(data_.runs.size(), light_of_pairs, survey_plan.pair_light);
   const Survey survey = survey_data(model, data_, first_, survey_plan, settings(), stages_.part());
-  if (survey.bins == 0)
-    throw NoResult("not enough light: no receiver of any flasher run sees enough to be compared");
   if (step == 0 && leave_out_dim_runs(survey)) return look_at(model, step);
   DiagnosisStep look;
   judge_fit(survey, look);

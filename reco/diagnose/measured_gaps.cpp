@@ -42,13 +42,12 @@ class GapMeasurement {
   void run() {
     measure_base();
     if (additions_.count() == 0) return;
-    while (!accepted().empty() && !is_settled()) {
-    }
+    for (bool asks = true; asks && !accepted().empty();) asks = give_up_last();
     std::ranges::copy(remarks_, std::back_inserter(result_.remarks));
     if (result_.gap_unknown > gaps_.noise_of_differences())
       result_.remarks.push_back(fmt::format(
           "What runs do not tell of others makes the gap after larger by {:.0f}", result_.gap_unknown));
-    const double of_floor = neg_llh_of_floor(asked_.data, asked_.options.floor);
+    const double of_floor = result_.gap_of_floor / 2;  // in -ln L
     result_.p_of_rest =
         accepted().empty() ? gaps_.p_of_base(of_floor) : gaps_.p_of(accepted().model(), of_floor);
   }
@@ -66,8 +65,8 @@ class GapMeasurement {
     take(gaps_.of_base());
   }
 
-  // Whether what is there stays; otherwise one effect less is, or none.
-  bool is_settled() {
+  // The last effect, or all, where held-out runs do not want it. Whether the one before may go, too.
+  bool give_up_last() {
     constexpr double too_much = 2;
     const Gaps with = gaps_.of(accepted(), asked_.stages, 0.9, 0.95);
     take(with);
@@ -75,11 +74,11 @@ class GapMeasurement {
       additions_.give_up_all(fmt::format("{} effects together leave a gap, and none of them names it",
                                          accepted().effects().size()));
       take(gaps_.of_base());
-      return true;
+      return false;
     }
-    if (is_past_asking()) return true;
+    if (is_past_asking()) return false;
     const Gaps without = without_last();
-    if (with.known() <= without.known() + too_much * gaps_.noise_of_differences()) return true;
+    if (with.known() <= without.known() + too_much * gaps_.noise_of_differences()) return false;
     const std::size_t effects = accepted().effects().size();
     additions_.give_up(effects - 1, fmt::format("runs that were held out fit worse with it (a gap of {:.1f}, "
                                                 "{:.1f} of which the others cannot know) than {} ({:.1f}, "
@@ -89,7 +88,7 @@ class GapMeasurement {
                                                 without.total(), without.unknown));
     take(gaps_.of_base());
     additions_.refit();
-    return false;
+    return true;
   }
 
   // Where all that may be added leave a gap, each has taken a part of what none of them is, unless they close

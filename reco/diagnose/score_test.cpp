@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "propagation/engine/threads.h"
 #include "reco/validation/two_sample_tests.h"
 
 namespace floe {
@@ -220,7 +221,7 @@ ScoreTester::ScoreTester(const Survey& survey, const std::vector<Suspect>& suspe
     : survey_(survey), tested_(prepare(survey, suspects, parameters)) {
   const auto number = static_cast<std::size_t>(draws.count);
   for (const TestedSuspect& t : tested_) drawn_[t.suspect->effect].assign(number, 0);
-#pragma omp parallel for schedule(dynamic) num_threads(cores(draws))
+#pragma omp parallel for schedule(dynamic) num_threads(thread_count(draws.threads))
   for (std::size_t d = 0; d < number; ++d) {
     const VectorXd gap = gap_of(survey_, drawn_counts(survey_, draws.seed, d));
     for (const TestedSuspect& t : tested_) {

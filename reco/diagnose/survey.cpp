@@ -9,7 +9,7 @@
 #include <map>
 #include <random>
 
-#include "propagation/engine/threads.h"
+#include "data/base/error.h"
 #include "reco/diagnose/displaced_strings.h"
 #include "reco/diagnose/place_columns.h"
 #include "reco/ice_fit/ice_point.h"
@@ -57,6 +57,8 @@ class Surveyor {
 
   Survey run() {
     for (std::size_t r = 0; r < data_.runs.size(); ++r) look_at(r);
+    if (survey_.bins == 0)
+      throw NoResult("not enough light: no receiver of any flasher run sees enough to be compared");
     for (std::size_t p = 0; p < plan_.parameters.size(); ++p)
       survey_.columns.push_back({Kind::parameter, p, 0, 0});
     if (plan_.places) {
@@ -294,10 +296,6 @@ SurveyCounts drawn_counts(const Survey& survey, std::uint64_t seed, std::uint64_
   std::mt19937_64 random(sequence);
   for (const SurveyRun& run : survey.runs) counts.push_back(run.draws.draw(random));
   return counts;
-}
-
-int cores(const Draws& draws) {
-  return thread_count(draws.threads);
 }
 
 Eigen::VectorXd gap_of(const Survey& survey, const SurveyCounts& counts) {

@@ -75,8 +75,6 @@ struct Draws {
   std::uint64_t seed = 1;
   int threads = 0;  // 0: all cores; the result does not depend on it
 };
-// Of a parallel loop.
-int cores(const Draws& draws);
 
 // By column: sum of weights times what the counts have above the expectation.
 Eigen::VectorXd gap_of(const Survey& survey, const SurveyCounts& counts);
@@ -96,7 +94,7 @@ struct SurveyPlan {
   bool places = true;        // strings and modules, too
 };
 
-// `data`: screened; `look`: of the runs.
+// `data`: screened; `look`: of the runs. Throws NoResult when no receiver sees enough to be compared.
 Survey survey_data(const Model& model, const FlasherData& data, const FirstLook& look, const SurveyPlan& plan,
                    const RunSettings& settings, const Progress& progress = {});
 

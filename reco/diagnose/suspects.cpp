@@ -102,7 +102,7 @@ IceParameter parameter_at_place(const Changing& changing, const Suspect& suspect
 
 double within(const IceParameter& parameter, double number, double longest) {
   number = std::clamp(number, parameter.start - longest, parameter.start + longest);
-  return std::clamp(number, parameter.low, parameter.high);
+  return parameter.within(number);
 }
 double within(const IceParameter& parameter, double number) {
   return within(parameter, number, 2 * parameter.scale);

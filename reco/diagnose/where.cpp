@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "propagation/engine/threads.h"
 #include "reco/diagnose/score_test.h"
 
 namespace floe {
@@ -61,7 +62,7 @@ std::vector<std::vector<double>> drawn_extremes(const Survey& survey, const std:
   constexpr std::uint64_t first_draw = std::uint64_t{1} << 32;
   std::vector<std::vector<double>> drawn(axes.size(),
                                          std::vector<double>(static_cast<std::size_t>(draws.count)));
-#pragma omp parallel for schedule(dynamic) num_threads(cores(draws))
+#pragma omp parallel for schedule(dynamic) num_threads(thread_count(draws.threads))
   for (int d = 0; d < draws.count; ++d) {
     const auto draw = static_cast<std::size_t>(d);
     const VectorXd off = residual_of(survey, drawn_counts(survey, draws.seed, first_draw + draw));

@@ -64,7 +64,7 @@ class Fit {
   }
 
   IceFit run() {
-    scores_.look_first(model(), false);
+    scores_.look_first(model(), /*runs_keep_numbers=*/false);
     fit_.left_out = scores_.left_out();
     for (round_ = 1; round_ <= options_.most_rounds && !fit_.converged && !is_settled(); ++round_)
       one_round();
@@ -74,7 +74,7 @@ class Fit {
   }
 
   std::vector<FitWithout> run_without(const std::vector<std::vector<char>>& left_out) {
-    scores_.look_first(model(), true);
+    scores_.look_first(model(), /*runs_keep_numbers=*/true);
     round_ = 1;
     one_round();
     ++round_;
